@@ -1,4 +1,4 @@
-# Writes OUT, a header with the version and the commit of the sources in SOURCE, if it would change. Of commits only those count
+# Writes OUT, a header with the version and the commit of the sources in SOURCE, if it would change. Only commits count
 # that can change the program: a change of the docs links nothing anew. Without git, or outside a clone, the version alone.
 set(parts src include idl cmake CMakeLists.txt)
 set(commit "")

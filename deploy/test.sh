@@ -26,7 +26,7 @@ build() {
 
 echo "== ${presets[0]}: build"
 build "${presets[0]}"
-# Many tests of the shipped program wait for each other. What they leave of the processors builds the rest.
+# Many tests of the shipped program wait for each other, so the rest is built on processors that are idle.
 log=$(mktemp)
 setsid nice -n 15 bash -c "set -euo pipefail; $(declare -f with_addresses_for build)
   for preset; do echo \"== \$preset: build\"; build \"\$preset\"; done" build "${presets[@]:1}" >"$log" 2>&1 &

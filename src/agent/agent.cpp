@@ -87,7 +87,7 @@ Status Agent::start() {
   exchange_->begin_session(session_);
   link_ = std::make_unique<FleetLink>(config_.id, bus_, *exchange_, [this] { on_events(); });
   perception_ = std::make_unique<Perception>(
-      config_.perception, bus_, [this](Perceived&& perceived) { on_perceived(std::move(perceived)); },
+      config_.perception, bus_, [this](ScanEstimate&& estimate) { on_estimate(std::move(estimate)); },
       [this] {
         if (navigator_) navigator_->on_scan();
       });
@@ -155,21 +155,21 @@ void Agent::stop() {
   local_hold_.reset();
 }
 
-void Agent::on_perceived(Perceived&& perceived) {
+void Agent::on_estimate(ScanEstimate&& estimate) {
   if (!frame_.admits(perception_->odometry_counters(),
                      [this](const char* why) { return begin_session(why); }))
     return;
   keep_lidar_mount();
   if (numbers_run_out()) begin_session("no number is left for another item of this session");
-  const odometry::OdometryUpdate& update = perceived.odometry;
-  scan_seconds_.add(perceived.cpu_seconds);
-  if (navigator_) navigator_->on_perceived(perceived);
+  const odometry::OdometryUpdate& update = estimate.odometry;
+  scan_seconds_.add(estimate.cpu_seconds);
+  if (navigator_) navigator_->on_estimate(estimate);
   const graph::FrameId frame{config_.id, session_};
   if (live_placement_) live_placement_->publish(frame, {update.stamp, update.T_odom_base});
   const auto placed = live_placement_ ? live_placement_->placed(frame) : std::nullopt;
-  if (on_pose_) on_pose_({update.stamp, update.T_odom_base, perceived.G, placed});
-  tracks_.add(perceived);
-  if (nodes_.add(std::move(perceived), bus_.now())) freeze_node();
+  if (on_pose_) on_pose_({update.stamp, update.T_odom_base, estimate.G, placed});
+  tracks_.add(estimate);
+  if (nodes_.add(std::move(estimate), bus_.now())) freeze_node();
 }
 
 std::shared_ptr<const graph::PlacedFleet> Agent::placed_fleet() const {

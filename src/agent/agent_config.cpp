@@ -30,7 +30,7 @@ Status AgentConfig::validate() const {
     return failure("exchange: loop_candidates.max_active must be at most cloud_transfer.max_receiving");
   // Else both clouds of a candidate hold the same submaps.
   if (own_path.min_path < 2.0 * static_cast<double>(spherize.radius_m))
-    return failure("loop_closures.min_path must be at least twice spherize.radius");
+    return failure("own_path.min_path must be at least twice spherize.radius");
   return {};
 }
 

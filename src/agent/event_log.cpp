@@ -116,7 +116,7 @@ struct Log {
     }
   }
   template <class Other>
-  void operator()(const Other&) const {}  // whoever handles it tells of it, or nobody needs to know
+  void operator()(const Other&) const {}  // logged by its handler, or of no interest
 };
 
 }  // namespace

@@ -85,13 +85,13 @@ void Navigator::note(const std::optional<StopReason>& reason) {
   drove_ |= !reason;
   if (reason == stop_reason_) return;
   if (!reason) {
-    if (standing_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
+    if (stopped_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
   } else if ((drove_ && !done()) || reason == StopReason::kHeld) {  // else there is nothing to warn of
     spdlog::log(reason == StopReason::kStopping ? spdlog::level::info : spdlog::level::warn,
                 "{}: stands still: {}", self_.str(), to_string(*reason));
   }
   stop_reason_ = reason;
-  standing_since_ = bus_.now();
+  stopped_since_ = bus_.now();
 }
 
 void Navigator::watch() {
@@ -100,28 +100,28 @@ void Navigator::watch() {
   if (reason || stop_reason_) drive({});
 }
 
-bool Navigator::locate(const Perceived& perceived) {
+bool Navigator::locate(const ScanEstimate& estimate) {
   const Stamp now = bus_.now();
-  const bool lost = perceived.odometry.lost;
-  if (!lost) guard_.on_odometry(perceived.arrival, now);
+  const bool lost = estimate.odometry.lost;
+  if (!lost) guard_.on_odometry(estimate.arrival, now);
   if (guided()) {
     pose_ = guide_;
     return !lost;
   }
-  if (!perceived.G) return false;
-  pose_ = pose_of(*perceived.G);
-  const double sigma = place::horizontal_sigma(perceived.G->covariance);
+  if (!estimate.G) return false;
+  pose_ = pose_of(*estimate.G);
+  const double sigma = place::horizontal_sigma(estimate.G->covariance);
   if (!pose_ || !(sigma <= config_.guard.max_position_sigma)) return false;
   guard_.on_pose(now);
   return !lost;
 }
 
-void Navigator::on_perceived(const Perceived& perceived) {
-  const bool located = locate(perceived);
+void Navigator::on_estimate(const ScanEstimate& estimate) {
+  const bool located = locate(estimate);
   const bool follow = action_.kind == planning::MissionAction::Kind::kFollow;
   if (!located || !follow || guard_.check(bus_.now())) return drive({});
-  const double speed = perceived.odometry.twist.x();
-  drive(follower_.update(*pose_, speed, obstacles_among(perceived.odometry.points.points, config_.obstacles),
+  const double speed = estimate.odometry.twist.x();
+  drive(follower_.update(*pose_, speed, obstacles_among(estimate.odometry.points.points, config_.obstacles),
                          bus_.now()));
 }
 
@@ -162,7 +162,7 @@ bool Navigator::all_rows_driven() const {
 /// A robot that is held may go on at any time; one that is blind for long is of no use to the mission.
 bool Navigator::stuck(Stamp now) const {
   if (stop_reason_ == StopReason::kHeld) return false;
-  const bool blind = stop_reason_ && now - standing_since_ > from_seconds(config_.follower.stuck_after);
+  const bool blind = stop_reason_ && now - stopped_since_ > from_seconds(config_.follower.stuck_after);
   return blind || follower_.stuck(now);
 }
 

@@ -31,17 +31,17 @@ void NodeFactory::begin_frame() {
   node_generator_ = place::NodeGenerator(nodes_);
 }
 
-bool NodeFactory::add(Perceived&& perceived, Stamp now) {
-  const odometry::OdometryUpdate& update = perceived.odometry;
+bool NodeFactory::add(ScanEstimate&& estimate, Stamp now) {
+  const odometry::OdometryUpdate& update = estimate.odometry;
   motion_.add(update);
   // A scan that did not fit the map is at a guessed place: it must not enter what can never be changed.
   if (update.lost) return false;
-  level_.add(perceived.up_in_base, update.T_odom_base, update.stamp);
+  level_.add(estimate.up_in_base, update.T_odom_base, update.stamp);
   submap_.add(update.points, update.T_odom_base);
-  const bool wait = !perceived.G && waits_for_gps(now);
+  const bool wait = !estimate.G && waits_for_gps(now);
   const bool due = !wait && node_generator_.offer(update.T_odom_base);
-  perceived.odometry.points = {};
-  last_ = std::move(perceived);
+  estimate.odometry.points = {};
+  last_ = std::move(estimate);
   return due;
 }
 
@@ -70,7 +70,7 @@ Result<NodeFactory::Made> NodeFactory::make(const NodeId& id) {
     const auto variance = last_->up_is_measured ? level_.variance() : std::nullopt;
     node.G = levelled(*last_->G, node.up_in_base, variance);
   }
-  if (id.seq != first_seq(node.session)) node.odom_covariance = motion_.lost_since_reference();
+  if (id.seq != first_seq(node.session)) node.odom_covariance = motion_.drift_since_reference();
   recent_surroundings_.add(submap_.cloud(), node.T_odom_base.translation());
   node.descriptor = recent_surroundings_.describe(node.T_odom_base, node.up_in_base).encode();
   const Result<graph::Node> rounded = fleet_codec::quantised(node);

@@ -30,11 +30,11 @@ void keep(std::vector<T>& samples, const T& sample) {
 
 }  // namespace
 
-Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived,
+Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnEstimate on_estimate,
                        std::function<void()> on_scan)
     : config_(config),
       bus_(bus),
-      on_perceived_(std::move(on_perceived)),
+      on_estimate_(std::move(on_estimate)),
       on_scan_(std::move(on_scan)),
       loam_(config.odometry, config.lidar),
       ekf_(config.localization),
@@ -204,14 +204,14 @@ void Perception::finish(Job& job) {
                  ros_codec::encode(odometry_messages_.next(update, loam_counters_)));
     const localization::Filter& filter = ekf_.newest();
     const Eigen::Matrix3d R = filter.attitude_set ? filter.R : Eigen::Matrix3d(update.T_odom_base.linear());
-    Perceived perceived{std::move(*job.update),
-                        ekf_.pose_at(update.stamp),
-                        R.transpose() * Eigen::Vector3d::UnitZ(),
-                        filter.attitude_set,
-                        job.cpu_seconds,
-                        job.arrival};
+    ScanEstimate perceived{std::move(*job.update),
+                           ekf_.pose_at(update.stamp),
+                           R.transpose() * Eigen::Vector3d::UnitZ(),
+                           filter.attitude_set,
+                           job.cpu_seconds,
+                           job.arrival};
     if (perceived.G) bus_.publish(fleet_codec::topics::global_pose(), fleet_codec::encode(*perceived.G));
-    on_perceived_(std::move(perceived));
+    on_estimate_(std::move(perceived));
   } else {
     ++counters_.refused_scans;
     warn("scan refused", job.update.error().message);

@@ -170,7 +170,7 @@ std::vector<std::string> SensorMounts::summaries() const {
 }
 
 void SensorMounts::warn(const std::string& text) {
-  if (told_.insert(text).second) warnings_.push_back(text);
+  if (reported_.insert(text).second) warnings_.push_back(text);
 }
 
 std::vector<std::string> SensorMounts::take_warnings() { return std::exchange(warnings_, {}); }

@@ -18,14 +18,14 @@ TrackRecorder::TrackRecorder(std::filesystem::path directory, output::Trajectory
                              output::GlobalTrackFile global)
     : directory_(std::move(directory)), odometry_(std::move(odometry)), global_(std::move(global)) {}
 
-void TrackRecorder::add(const Perceived& perceived) {
-  const odometry::OdometryUpdate& update = perceived.odometry;
+void TrackRecorder::add(const ScanEstimate& estimate) {
+  const odometry::OdometryUpdate& update = estimate.odometry;
   if (odometry_) {
     if (const Status written = odometry_->add({update.stamp, update.T_odom_base}); !written)
       spdlog::error("{}", written.error().message);
   }
-  if (perceived.G) {
-    if (const Status written = global_.add(*perceived.G); !written)
+  if (estimate.G) {
+    if (const Status written = global_.add(*estimate.G); !written)
       spdlog::error("{}", written.error().message);
   }
 }

@@ -10,13 +10,14 @@ namespace fleetmap::apps {
 void add_agent(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<AgentOptions>();
   CLI::App* command =
-      app.add_subcommand("agent", "one robot over DDS; ends with SIGINT or SIGTERM and writes its map");
+      app.add_subcommand("agent", "runs one robot over DDS until SIGINT or SIGTERM, then writes its map");
   command->add_option("-c,--config", options->config, "AGENT.yaml, or FLEET.yaml with --as")->required();
-  CLI::Option* as = command->add_option("--as", options->as, "this agent of FLEET.yaml, all on this machine");
+  CLI::Option* as = command->add_option(
+      "--as", options->as, "name of the agent in FLEET.yaml, whose agents all run on this machine");
   command
       ->add_option(
           "--out", options->out,
-          "with --as: the agent keeps its files in OUT/NAME; without, the file's directory says where")
+          "with --as: writes the agent's files to OUT/NAME; else they go to `directory` of the configuration")
       ->needs(as)
       ->check(some_path());
   command
@@ -25,8 +26,8 @@ void add_agent(CLI::App& app, int& exit_code) {
       ->check(some_path());
   command
       ->add_option("--exit-after-idle", options->exit_after_idle,
-                   "s; end by itself when sensors and exchange have been silent for so long; a minute later "
-                   "while no scan was heard yet, and another while somebody lacks a part of the map")
+                   "s; exits when sensors and exchange were silent for so long; a minute later if no scan "
+                   "was received yet, and another minute later if a robot lacks a part of the map")
       ->check(non_negative_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);

@@ -106,7 +106,7 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWa
   const bus::Handle traffic =
       bus.every(kTrafficPeriod, {"traffic log", [&] {
                                    const auto heard = bus.take_heard_traffic();
-                                   log.add_traffic(heard, agent.asked_for_submaps(), bus.now());
+                                   log.add_traffic(heard, agent.submap_requesters(), bus.now());
                                    if (page != nullptr) page->publish(heard, log.last_heard());
                                  }});
   const bus::Handle nodes =

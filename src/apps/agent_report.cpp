@@ -15,7 +15,7 @@ json misbehaved_json(const exchange::ExchangeStats& stats) {
   return by_robot;
 }
 
-json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::LoopClosureStats& loops) {
+json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::CandidateStats& loops) {
   const auto proofs = [&](exchange::ItemProof proof) {
     return stats.proofs[static_cast<std::size_t>(proof)];
   };
@@ -150,14 +150,14 @@ void add_holdings(json& report, const store::Store& store, const output::Results
   json apart = json::array();
   for (const output::MapPart& part : results->apart) apart.push_back(output::file_of(part));
   report["maps_apart"] = apart;
-  json credits = json::object();
-  for (const auto& [agent, credit] : results->placement.credits) {
-    credits[agent.str()] = {{"used", credit.used},
-                            {"rejected", credit.rejected},
-                            {"outlier_sets", credit.outlier_sets},
-                            {"quarantined", credit.quarantined}};
+  json stats_by_agent = json::object();
+  for (const auto& [agent, stats] : results->placement.alignment_stats) {
+    stats_by_agent[agent.str()] = {{"used", stats.used},
+                                   {"rejected", stats.rejected},
+                                   {"outlier_sets", stats.outlier_sets},
+                                   {"quarantined", stats.quarantined}};
   }
-  if (!credits.empty()) report["alignments_computed_by"] = credits;
+  if (!stats_by_agent.empty()) report["alignments_computed_by"] = stats_by_agent;
   if (!results->contradicting.empty()) report["contradict_the_fleet"] = contradicting_json(*results);
 }
 
@@ -177,7 +177,7 @@ json agent_report(const agent::Agent& agent, const output::Results* results) {
                  {"refused_fleet_messages", agent.link_counters().refused_messages},
                  {"store_conflicts", agent.store().stats().conflicts},
                  {"store_failures", agent.store_failures()},
-                 {"exchange", exchange_json(agent.exchange_stats(), agent.loop_closure_stats())}};
+                 {"exchange", exchange_json(agent.exchange_stats(), agent.candidate_stats())}};
   add_holdings(report, agent.store(), results);
   return report;
 }

@@ -58,7 +58,7 @@ class Collector {
     found.covariance = by_turn * found.covariance * by_turn.transpose();
     std::array<bool, 3> moved =
         add_shifts("LiDAR", shift, in_use_.T_base_lidar.translation(), found.covariance);
-    // A body that sways does so about an axis that nobody knows.
+    // The axis about which a body sways is not known.
     moved[2] = quantities_.back().observable = false;
     quantities_.back().remedy = "wheels do not show it: measure it";
     add("wheels", "speed", "times that of the LiDAR", found.speed_scale, 1.0, kMaxScaleSigma);

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 /// The submaps of the nodes of `day` that `other` does not have, as placed.
 std::vector<change::ObservedSubmap> observed(store::Store& store, const graph::Placement& placement,
-                                             const loop_closure::Day& day, const loop_closure::Day& other,
+                                             const loop_closure::MapSession& day,
+                                             const loop_closure::MapSession& other,
                                              const Eigen::Vector3d& lidar) {
   const store::SubmapLoader load = store::decoded_submaps(store);
   std::vector<change::ObservedSubmap> submaps;
@@ -67,7 +68,7 @@ Result<DayChanges> changes_between(const fs::path& first, const fs::path& second
   if (!lidar_after) return tl::unexpected(lidar_after.error());
   auto store = store::Store::open_read_only(file);
   if (!store) return tl::unexpected(store.error());
-  const loop_closure::Day &before = merged->days[0], &after = merged->days[1];
+  const loop_closure::MapSession &before = merged->days[0], &after = merged->days[1];
   auto changes = change::find_changes(observed(*store, merged->placement, before, after, *lidar_before),
                                       observed(*store, merged->placement, after, before, *lidar_after), {});
   if (!changes) return failure(first.string() + " and " + second.string() + ": " + changes.error().message);

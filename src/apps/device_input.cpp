@@ -56,7 +56,7 @@ Error DeviceInput::serve(DeviceStream& stream, const std::stop_token& stop) {
     if (*size > 0) {
       if (!std::exchange(any, true) || moment - heard > kSilence) {
         spdlog::info("{}: heard", name);
-        said_.clear();
+        reported_.clear();
       }
       heard = moment;
       handlers_.on_bytes(ByteView(buffer).first(*size), system_now());
@@ -71,7 +71,7 @@ Error DeviceInput::serve(DeviceStream& stream, const std::stop_token& stop) {
 }
 
 void DeviceInput::say(const std::string& what) {
-  if (what != std::exchange(said_, what)) spdlog::warn("{}", what);
+  if (what != std::exchange(reported_, what)) spdlog::warn("{}", what);
 }
 
 }  // namespace fleetmap::apps

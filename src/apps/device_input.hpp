@@ -33,7 +33,7 @@ class DeviceInput {
 
   agent::DevicePlace place_;
   Handlers handlers_;
-  std::string said_;
+  std::string reported_;
   std::jthread thread_;
 };
 

@@ -24,7 +24,8 @@ class DeviceStream {
 
   /// The number of bytes that came within 0.1 s. An error means that the device is gone.
   Result<std::size_t> read(std::span<std::uint8_t> buffer);
-  /// Over UDP to whoever sent last, or else nothing. What a full line does not take is lost.
+  /// Over UDP the bytes go to the last sender, if there is one. Bytes that a full line does not accept are
+  /// lost.
   Status write(ByteView bytes);
   /// The UDP port, also one that the system chose.
   std::uint16_t port() const;

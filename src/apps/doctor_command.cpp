@@ -11,11 +11,10 @@ namespace fleetmap::apps {
 void add_doctor(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = app.add_subcommand("doctor",
-                                         "listens to a robot's sensors and says what is wrong with their "
-                                         "clocks, units, rates and mounts; exit code "
-                                         "1 if anything is");
+                                         "listens to a robot's sensors and reports errors of clocks, units, "
+                                         "rates and mounts; exit code 1 if there are any");
   command->add_option("-c,--config", options->config, "AGENT.yaml")->required();
-  command->add_option("--seconds", options->seconds, "how long to listen")->check(CLI::PositiveNumber);
+  command->add_option("--seconds", options->seconds, "s, duration")->check(CLI::PositiveNumber);
   command->add_option("--set", options->set, "key=value")->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = report(examine_sensors(*options, std::cout)); });
 }

@@ -40,7 +40,7 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "of a larger map every k-th point is measured, which bounds memory")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_flag("--no-pictures", options->no_pictures, "numbers only");
+  command->add_flag("--no-pictures", options->no_pictures, "writes numbers only");
   command
       ->add_option("--modes", options->modes,
                    "combinations of registration and placement to evaluate beside the run's own, which is "
@@ -51,9 +51,9 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag(
       "--register-again", options->inputs.register_again,
-      "register the run's loop candidates anew with this program, by the run's own method too: what "
-      "another version of fleetmap would have made of the same clouds");
-  command->add_flag("--no-overlap", options->no_overlap, "not what two robots saw");
+      "registers the run's loop candidates anew with this program, by the run's own method too, to "
+      "compare versions of fleetmap on the same clouds");
+  command->add_flag("--no-overlap", options->no_overlap, "does not measure the overlap of robots");
   command->callback([options, &exit_code] { exit_code = report(measure_run(*options, std::cout)); });
 }
 

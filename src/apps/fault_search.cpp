@@ -1,5 +1,7 @@
 #include "fault_search.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <iomanip>
 #include <ostream>
@@ -14,6 +16,18 @@ namespace fleetmap::apps {
 namespace {
 
 using namespace fault_injection;
+
+/// Switches the program's log off while it exists, since the robots log every fault that is injected.
+class SilentLog {
+ public:
+  SilentLog() { spdlog::set_level(spdlog::level::off); }
+  ~SilentLog() { spdlog::set_level(before_); }
+  SilentLog(const SilentLog&) = delete;
+  SilentLog& operator=(const SilentLog&) = delete;
+
+ private:
+  spdlog::level::level_enum before_ = spdlog::get_level();
+};
 
 CommandResult<ExitCode> replay(const Scenario& scenario, const FuzzOptions& options, RunConfig config,
                                std::ostream& out) {
@@ -64,6 +78,7 @@ CommandResult<ExitCode> search_faults(const FuzzOptions& options, std::ostream& 
     scenarios.min_robots = *std::ranges::min_element(options.robots);
     scenarios.max_robots = *std::ranges::max_element(options.robots);
   }
+  const SilentLog silent;
   if (options.replay) return replay(make_scenario(*options.replay, scenarios), options, run_config, out);
   return search(options, scenarios, run_config, out);
 }

@@ -22,7 +22,7 @@ struct FleetToPlan {
 
 /// Those of an agent's or a fleet's file, for the drawing `site`; without a file (empty) `agents` robots r1,
 /// r2, ... of default abilities. An agent's file without an origin is planned about the drawing's first
-/// position, and a line on standard output tells so.
+/// position, and a line on standard output reports it.
 Result<FleetToPlan> fleet_to_plan(const std::string& site, const std::string& file, std::size_t agents,
                                   std::vector<config::Override> overrides);
 

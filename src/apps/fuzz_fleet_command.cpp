@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <iostream>
 #include <memory>
 
@@ -12,33 +10,35 @@ namespace fleetmap::apps {
 void add_fuzz_fleet(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<FuzzOptions>();
   CLI::App* command = app.add_subcommand(
-      "fuzz-fleet", "fleets of random faults in virtual time: finds, replays and shrinks what breaks them");
+      "fuzz-fleet",
+      "simulates fleets with random faults in virtual time; finds, replays and shrinks failing sequences");
   command->add_option("--seeds", options->seeds, "fleets to simulate")->check(whole_number(1));
   command->add_option("--from", options->from, "the first seed")->check(whole_number(0));
-  command->add_option("--replay", options->replay, "simulates this seed alone and prints what happens")
+  command->add_option("--replay", options->replay, "simulates this seed alone and prints its events")
       ->check(whole_number(0));
-  command->add_option("--keep", options->keep, "with --replay: numbers of the faults that happen, e.g. 0,3")
+  command
+      ->add_option("--keep", options->keep, "with --replay: numbers of the faults that are applied, e.g. 0,3")
       ->delimiter(',');
   command
       ->add_option("--stores", options->stores,
                    "with --replay: folder for the robots' stores as they end, for `map` and `monitor`")
       ->check(some_path());
-  command->add_option("--robots", options->robots, "so many robots; two numbers: between them (3,10)")
+  command->add_option("--robots", options->robots, "number of robots; two numbers are a range (3,10)")
       ->delimiter(',')
       ->check(whole_number(2, 20));
   command->add_option("--faults", options->faults, "kinds of faults, separated by commas, or all");
   command->add_option("--invariants", options->invariants,
-                      "those that are checked, separated by commas, or all");
-  command->add_option("--mapping", options->mapping, "s that the robots map while faults happen")
+                      "invariants that are checked, separated by commas, or all");
+  command
+      ->add_option("--mapping", options->mapping,
+                   "s, duration of the mapping, during which faults are applied")
       ->check(positive_number());
   command->add_option("--jobs", options->jobs, "fleets at a time")->check(whole_number(1, 256));
   command->add_flag("--signatures", options->signatures,
                     "robots sign their items, as a fleet with keys does");
-  command->add_flag("--no-shrink", options->no_shrink, "does not look for the fewest faults that fail");
-  command->callback([options, &exit_code] {
-    spdlog::set_level(spdlog::level::off);  // the robots' own logs of faults that are meant
-    exit_code = report(search_faults(*options, std::cout));
-  });
+  command->add_flag("--no-shrink", options->no_shrink,
+                    "does not search for the smallest set of faults that fails");
+  command->callback([options, &exit_code] { exit_code = report(search_faults(*options, std::cout)); });
 }
 
 }  // namespace fleetmap::apps

@@ -10,9 +10,10 @@ namespace fleetmap::apps {
 void add_inspect(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RecordingOptions>();
   options->scans_needed = false;
-  CLI::App* command = app.add_subcommand("inspect",
-                                         "what a recording holds, and what is wrong with its clocks, units, "
-                                         "rates, mounts and motions; exit code 1 if anything is");
+  CLI::App* command =
+      app.add_subcommand("inspect",
+                         "prints the contents of a recording, and errors of its clocks, units, "
+                         "rates, mounts and motions; exit code 1 if there are any");
   add_recording_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = report(inspect_recording(*options, std::cout)); });
 }

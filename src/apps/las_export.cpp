@@ -32,15 +32,15 @@ void print(std::ostream& out, const output::WrittenLas& written, const std::stri
 
 Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace& place,
                               const std::string& store) {
-  const auto choice = output::parse_crs(options.crs.value_or("utm"));
-  if (!choice) return tl::unexpected(choice.error());
+  const auto request = output::parse_crs(options.crs.value_or("utm"));
+  if (!request) return tl::unexpected(request.error());
   std::optional<Geoid> geoid;
   if (options.geoid) {
     auto loaded = Geoid::load(*options.geoid);
     if (!loaded) return tl::unexpected(loaded.error());
     geoid = std::move(*loaded);
   }
-  auto crs = output::MapCrs::of(*choice, place, std::move(geoid));
+  auto crs = output::MapCrs::of(*request, place, std::move(geoid));
   if (!crs) return failure(store + ": " + crs.error().message);
   return crs;
 }

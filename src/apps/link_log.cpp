@@ -34,7 +34,7 @@ void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& received,
                           const std::vector<AgentId>& fetched_from, Stamp now) {
   const Stamp before = std::exchange(written_, now);
   const auto fetched_before = std::exchange(fetched_from_, {fetched_from.begin(), fetched_from.end()});
-  if (before == Stamp{}) return;  // of what time these came is not known
+  if (before == Stamp{}) return;  // the interval of these messages is not known
   for (const bus::HeardTraffic& traffic : received) {
     // A robot from which submaps were being fetched at both ends of the second has filled the link.
     const bool full = traffic.link == bus::Link::kShortRange && fetched_before.contains(traffic.from) &&

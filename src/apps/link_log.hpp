@@ -19,7 +19,7 @@ namespace fleetmap::apps {
 /// link_trace.csv has a row for each second and robot that was heard on a radio, and one with 100 % loss when
 /// it falls silent; time_s is when the second began. Its columns are those of a trace that `fleetmap trial`
 /// replays: kbit_s is what the link can carry, known only while submaps fill it, used_kbit_s what came.
-/// node_times.csv tells when each node of the fleet came to be held, by the system's clock. Both are bounded
+/// node_times.csv has the time of arrival of each node of the fleet, by the system's clock. Both are bounded
 /// as output::LineFile is.
 class LinkLog {
  public:

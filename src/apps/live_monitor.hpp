@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fleetmap/monitor/server.hpp"
-#include "shown_run.hpp"
+#include "loaded_run.hpp"
 
 namespace fleetmap::apps {
 
@@ -20,7 +20,7 @@ namespace fleetmap::apps {
 /// They take at most about a twentieth of a core: after each reading they pause for twenty times as long.
 class LiveMonitor {
  public:
-  using Read = std::function<Result<ShownRun>()>;
+  using Read = std::function<Result<LoadedRun>()>;
   using Stores = std::function<std::vector<std::filesystem::path>()>;
 
   /// `stores`: the files that are watched, if there are any yet. A reading that fails later leaves what was

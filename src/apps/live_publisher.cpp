@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fleet_now.hpp"
+#include "fleet_state.hpp"
 #include "fleetmap/agent/navigator.hpp"
 
 namespace fleetmap::apps {
@@ -65,10 +65,10 @@ void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const L
   monitor::LiveStatus status;
   status.self = agent_.config().id;
   status.lost_after_s = lost_after(agent_);
-  FleetNow fleet = fleet_now(agent_, last_heard, bus_.now());
+  FleetState fleet = fleet_state(agent_, last_heard, bus_.now());
   for (const agent::Agent* other : others)
     fleet.problems[other->config().id] = problems_of(*other, bus_.now());
-  status.robots = robots_now(fleet);
+  status.robots = robot_states(fleet);
   status.sensors = sensors_.add(agent_.perception(), bus_.now());
   status.radio = radio(heard);
   server_.publish(std::make_shared<const monitor::LiveStatus>(std::move(status)));

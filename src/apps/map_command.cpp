@@ -61,25 +61,26 @@ void add_export_options(CLI::App& command, MapOptions& options) {
 
 void add_map(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<MapOptions>();
-  CLI::App* command = app.add_subcommand("map", "looks into a store, or writes its map");
+  CLI::App* command = app.add_subcommand("map", "prints the contents of a store, or writes its map");
   command->require_subcommand(1);
   const auto add = [&](const char* name, const char* about, Action action) {
     return add_action(*command, name, about, options, action, exit_code);
   };
-  add("info", "what a store holds", print_map_info)
+  add("info", "prints the contents of a store", print_map_info)
       ->add_flag("--json", options->json,
-                 "nodes, alignments and submaps held, by robot, and the hash of the set");
-  add_export_options(*add("export", "the merged map as LAS or GeoTIFF, or in ENU as PLY or PCD", write_map),
-                     *options);
-  add("picture", "the merged map from above and in perspective, by robot and density", draw_map)
+                 "prints JSON: nodes, alignments and submaps by robot, and the hash of the set");
+  add_export_options(
+      *add("export", "writes the merged map as LAS or GeoTIFF, or in ENU as PLY or PCD", write_map),
+      *options);
+  add("picture", "draws the merged map from above and in perspective, by robot and density", draw_map)
       ->add_option("--out", options->out, "folder for the PNG files")
       ->required()
       ->check(some_path());
-  add("tracks", "the ways of all robots as placed, in WGS84", write_tracks)
+  add("tracks", "writes the trajectories of all robots as placed, in WGS84", write_tracks)
       ->add_option("--out", options->out, "FILE.gpx or FILE.geojson")
       ->required()
       ->check(file_ending({".gpx", ".geojson"}));
-  add("graph", "nodes, odometry and alignments in use, for g2o", write_graph)
+  add("graph", "writes nodes, odometry and alignments in use for g2o", write_graph)
       ->add_option("--out", options->out, "FILE.g2o")
       ->required()
       ->check(file_ending({".g2o"}));

@@ -10,13 +10,15 @@ namespace fleetmap::apps {
 
 void add_map_diff(CLI::App& map, int& exit_code) {
   auto options = std::make_shared<DiffOptions>();
-  CLI::App* command =
-      map.add_subcommand("diff", "what appeared and disappeared between two days, where both have looked");
-  command->add_option("before", options->before, "store.db of the first day, maybe of map merge")->required();
+  CLI::App* command = map.add_subcommand(
+      "diff", "finds objects that appeared or disappeared between two days, in places that both observed");
+  command->add_option("before", options->before, "store.db of the first day; that of `map merge`, too")
+      ->required();
   command->add_option("after", options->after, "store.db of the second day")->required();
-  command->add_option("--geojson", options->geojson, "FILE.geojson of the changes, in WGS84")
+  command->add_option("--geojson", options->geojson, "writes the changes to FILE.geojson, in WGS84")
       ->check(some_path());
-  command->add_option("--ply", options->ply, "FILE.ply of both days' surfaces, coloured")->check(some_path());
+  command->add_option("--ply", options->ply, "writes the surfaces of both days, coloured, to FILE.ply")
+      ->check(some_path());
   command->callback([options, &exit_code] { exit_code = report(compare_days(*options, std::cout)); });
 }
 

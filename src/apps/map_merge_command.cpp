@@ -10,7 +10,8 @@ namespace fleetmap::apps {
 
 void add_map_merge(CLI::App& map, int& exit_code) {
   auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = map.add_subcommand("merge", "stores of several days or robots become one, aligned");
+  CLI::App* command =
+      map.add_subcommand("merge", "aligns the stores of several days or robots and merges them into one");
   command->add_option("stores", options->stores, "store.db of each day or robot")
       ->required()
       ->expected(2, 64);

@@ -16,14 +16,14 @@ namespace fleetmap::apps {
 namespace {
 
 Result<StoredMap> open(const MapOptions& options) {
-  MapChoice choice;
+  MapSelection selection;
   if (const auto& deg = options.origin_deg; !deg.empty())
-    choice.origin = geo_point_from_degrees(deg[0], deg[1], deg[2]);
-  choice.voxel_m = options.voxel;
+    selection.origin = geo_point_from_degrees(deg[0], deg[1], deg[2]);
+  selection.voxel_m = options.voxel;
   auto without = robots_named(options.without);
   if (!without) return tl::unexpected(without.error());
-  choice.without = std::move(*without);
-  return open_map(options.store, choice);
+  selection.without = std::move(*without);
+  return open_map(options.store, selection);
 }
 
 CommandResult<ExitCode> print_json(const MapOptions& options, std::ostream& out) {

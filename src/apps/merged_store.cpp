@@ -17,7 +17,7 @@ namespace fleetmap::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using loop_closure::Day;
+using loop_closure::MapSession;
 
 /// A store under construction beside its final place.
 class UnfinishedStore {
@@ -91,8 +91,9 @@ Status put(store::Store& store, std::vector<DayPair>& pairs) {
   return store.sync();
 }
 
-bool between(const graph::FrameId& a, const graph::FrameId& b, const Day& earlier, const Day& later) {
-  const auto only = [](const graph::FrameId& frame, const Day& day, const Day& other) {
+bool between(const graph::FrameId& a, const graph::FrameId& b, const MapSession& earlier,
+             const MapSession& later) {
+  const auto only = [](const graph::FrameId& frame, const MapSession& day, const MapSession& other) {
     return day.contains(frame) && !other.contains(frame);
   };
   return (only(a, earlier, later) && only(b, later, earlier)) ||
@@ -100,7 +101,7 @@ bool between(const graph::FrameId& a, const graph::FrameId& b, const Day& earlie
 }
 
 std::string why_not_joined(const DayPair& pair, const graph::Placement& placement) {
-  const loop_closure::DayAlignments& tried = pair.alignments;
+  const loop_closure::MapSessionAlignments& tried = pair.alignments;
   const auto times = [](std::size_t count, const std::string& what) {
     return std::to_string(count) + " times: " + what;
   };
@@ -127,14 +128,16 @@ std::string why_not_joined(const DayPair& pair, const graph::Placement& placemen
   return std::to_string(tried.found.size()) + " alignments were found, but none is certain (" + why + ")";
 }
 
-void check_pair(DayPair& pair, const std::vector<Day>& days, const store::Store& store,
+void check_pair(DayPair& pair, const std::vector<MapSession>& days, const store::Store& store,
                 const graph::Placement& placement) {
-  const Day &earlier = days[pair.earlier], &later = days[pair.later];
+  const MapSession &earlier = days[pair.earlier], &later = days[pair.later];
   for (const graph::Alignment& used : placement.used) {
     const graph::Node *i = store.node(used.i), *j = store.node(used.j);
     pair.used += i != nullptr && j != nullptr && between(i->frame(), j->frame(), earlier, later);
   }
-  const auto is_of = [](const Day& day) { return [&](const auto& frame) { return day.contains(frame); }; };
+  const auto is_of = [](const MapSession& day) {
+    return [&](const auto& frame) { return day.contains(frame); };
+  };
   pair.frames_shared = std::ranges::any_of(earlier, is_of(later));
   pair.joined = std::ranges::any_of(placement.components, [&](const auto& component) {
     return std::ranges::any_of(component, is_of(earlier)) && std::ranges::any_of(component, is_of(later));
@@ -162,7 +165,7 @@ Status add_all(const std::vector<fs::path>& files, const exchange::ItemAuthentic
     auto added = exchange::add_items(into, *store, keys);
     if (!added) return tl::unexpected(added.error());
     merged.unions.push_back(std::move(*added));
-    merged.days.push_back(loop_closure::day_of(*store));
+    merged.days.push_back(loop_closure::map_session_of(*store));
     if (!recipe) recipe = output::recipe_or_default(*store);
   }
   if (!recipe || into.nodes().empty())
@@ -188,7 +191,7 @@ Result<MergedStore> merge_stores(const std::vector<fs::path>& stores, const fs::
       DayPair& pair = merged.pairs.emplace_back();
       pair.earlier = earlier;
       pair.later = later;
-      pair.alignments = loop_closure::align_days(store, merged.days[earlier], merged.days[later], {});
+      pair.alignments = loop_closure::align_map_sessions(store, merged.days[earlier], merged.days[later], {});
     }
   }
   if (const Status kept = put(store, merged.pairs); !kept) return tl::unexpected(kept.error());

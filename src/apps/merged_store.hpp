@@ -7,7 +7,7 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/exchange/store_union.hpp"
-#include "fleetmap/loop_closure/day_joining.hpp"
+#include "fleetmap/loop_closure/map_sessions.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/store/store.hpp"
 
@@ -16,7 +16,7 @@ namespace fleetmap::apps {
 /// Two of the stores that were merged.
 struct DayPair {
   std::size_t earlier = 0, later = 0;  ///< index of the store
-  loop_closure::DayAlignments alignments;
+  loop_closure::MapSessionAlignments alignments;
   std::size_t used = 0;        ///< alignments between the two days that the placement uses
   bool joined = false;         ///< a frame of one lies in a component with a frame of the other
   bool frames_shared = false;  ///< an odometry frame is in both stores
@@ -24,8 +24,8 @@ struct DayPair {
 };
 
 struct MergedStore {
-  std::vector<exchange::StoreUnion> unions;  ///< of each store
-  std::vector<loop_closure::Day> days;       ///< of each store
+  std::vector<exchange::StoreUnion> unions;    ///< of each store
+  std::vector<loop_closure::MapSession> days;  ///< of each store
   std::vector<DayPair> pairs;
   output::MapRecipe recipe;    ///< that of the first store
   graph::Placement placement;  ///< of all items

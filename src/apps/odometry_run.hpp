@@ -8,7 +8,7 @@
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/odometry/loam.hpp"
-#include "fleetmap/odometry/way_check.hpp"
+#include "fleetmap/odometry/trajectory_check.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
@@ -26,7 +26,7 @@ struct OdometryRun {
   odometry::LoamCounters counters;
   odometry::LocalMapSize map;  ///< when it was largest
   std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
-  odometry::WayCheck way;
+  odometry::TrajectoryCheck way;
   std::vector<std::string> findings;  ///< about clocks, units, rates, mounts and motions
 
   /// True if the odometry never restarted its map and the trajectory has no warnings.

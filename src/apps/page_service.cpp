@@ -21,7 +21,7 @@ void wait_for_signal() {
   std::mutex mutex;
   std::condition_variable never;
   std::unique_lock lock(mutex);
-  // A signal handler may notify nobody.
+  // A signal handler must not notify a condition variable.
   while (!stop) never.wait_for(lock, std::chrono::milliseconds(200));
 }
 

@@ -16,7 +16,7 @@ void add_register(CLI::App& app, int& exit_code) {
   CLI::Option* prior = command->add_option("--prior", options->prior, "x,y,z,yaw_deg of T_target_source")
                            ->delimiter(',')
                            ->expected(4);
-  command->add_option("--sigma", options->sigma, "m,deg: how well the prior is known")
+  command->add_option("--sigma", options->sigma, "m,deg: standard deviation of the prior")
       ->delimiter(',')
       ->expected(2)
       ->needs(prior);

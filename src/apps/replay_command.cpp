@@ -14,9 +14,10 @@ void add_replay(CLI::App& app, int& exit_code) {
                       "rosbag2 folder, .db3, .mcap, .bag or .pcap, KITTI folder, or a folder of scans");
   command->add_option("-c,--config", options->config,
                       "AGENT.yaml: its dds.onboard and recording keys are used");
-  command->add_option("--as", options->as, "play as this robot");
-  command->add_option("--rate", options->rate, "times real time")->check(CLI::Range(0.01, 100.0));
-  command->add_option("--wait", options->wait_for_reader, "s to wait for an agent that listens")
+  command->add_option("--as", options->as, "name of the robot that is played");
+  command->add_option("--rate", options->rate, "speed, in multiples of real time")
+      ->check(CLI::Range(0.01, 100.0));
+  command->add_option("--wait", options->wait_for_reader, "s, time to wait for an agent that subscribes")
       ->check(non_negative_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);

@@ -7,8 +7,8 @@
 
 #include "agent_report.hpp"
 #include "fleetmap/core/whole_file.hpp"
+#include "loaded_run.hpp"
 #include "report_page.hpp"
-#include "shown_run.hpp"
 
 namespace fleetmap::apps {
 namespace {

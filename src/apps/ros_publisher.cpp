@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fleet_now.hpp"
+#include "fleet_state.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/ros_codec/frame_transforms.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
@@ -103,7 +103,7 @@ void RosPublisher::publish_diagnostics() {
   ros_output::RobotState state{agent_.config().id, bus_.now(), agent_.perception().health().findings(),
                                std::move(sensors), {},         {}};
   state.robots =
-      robots_now(fleet_now(agent_, edges_.last_heard ? edges_.last_heard() : LastHeard(), bus_.now()));
+      robot_states(fleet_state(agent_, edges_.last_heard ? edges_.last_heard() : LastHeard(), bus_.now()));
   if (edges_.last_heard) state.lost_after_s = lost_after(agent_);
   bus_.publish(topics::diagnostics(), ros_codec::encode(ros_output::diagnostics(state)));
 }

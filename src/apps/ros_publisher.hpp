@@ -41,7 +41,7 @@ class RosPublisher {
   void tick();
   void publish_mounts();
   void publish_diagnostics();
-  /// Publishes `message()` once for each view, when somebody hears it.
+  /// Publishes `message()` once for each view if the topic has subscribers.
   void publish_view(const bus::Topic& topic, const std::function<Bytes()>& message);
   void update_map();
   void forget_map();

@@ -10,7 +10,7 @@ namespace fleetmap::apps {
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand(
-      "run", "a whole fleet in one process, in virtual time, from the twin or from recordings");
+      "run", "runs a whole fleet in one process, in virtual time, from the twin or from recordings");
   command->add_option("-c,--config", options->config, "FLEET.yaml");
   command
       ->add_option("--recording", options->recordings,
@@ -26,13 +26,15 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(some_path());
   command->add_option("--agents", options->agents, "only the first N agents of the file")
       ->check(whole_number(1));
-  command->add_option("--threads", options->threads, "at most so many; no influence on the result")
+  command
+      ->add_option("--threads", options->threads,
+                   "maximum number of threads; the result does not depend on it")
       ->check(whole_number(1, 256));
   command
       ->add_option(
           "--first-session", options->first_session,
-          "number of the robots' first session, and hours by which the twin begins later: another one "
-          "for each run that is to be merged")
+          "number of the robots' first session, and hours by which the twin begins later; runs that are "
+          "merged need different numbers")
       ->check(whole_number(0, 60'000));
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);

@@ -34,7 +34,7 @@ void print_maps(std::ostream& out, const FleetOutcome& outcome, const std::files
 void print_quarantine(std::ostream& out, const FleetOutcome& outcome) {
   for (const auto& entry : outcome.agents) {
     if (!entry.results) continue;
-    for (const auto& [agent, credit] : entry.results->placement.credits) {
+    for (const auto& [agent, credit] : entry.results->placement.alignment_stats) {
       if (credit.quarantined)
         out << agent.str() << " is in quarantine: " << credit.outlier_sets
             << " alignments that it computed are false, and none of its is used\n";

@@ -34,17 +34,17 @@ Result<std::vector<AgentId>> robots_named(const std::vector<std::string>& names)
   return robots;
 }
 
-Result<StoredMap> open_map(const std::filesystem::path& file, const MapChoice& choice) {
+Result<StoredMap> open_map(const std::filesystem::path& file, const MapSelection& selection) {
   if (const Status meant = check_store(file); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(file);
   if (!store) return tl::unexpected(store.error());
-  auto recipe = output::recipe_or_default(*store, choice.origin);
+  auto recipe = output::recipe_or_default(*store, selection.origin);
   if (!recipe || store->nodes().empty())
     return failure(file.string() + ": holds no node, so there is no map");
   if (!is_valid(recipe->origin))
     return failure("--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m");
-  if (choice.voxel_m) recipe->merge.voxel_m = *choice.voxel_m;
-  auto items = output::items_without(*store, choice.without);
+  if (selection.voxel_m) recipe->merge.voxel_m = *selection.voxel_m;
+  auto items = output::items_without(*store, selection.without);
   if (!items) return tl::unexpected(items.error());
   auto placement = graph::compute_placement(items->nodes, items->alignments, LocalFrame(recipe->origin),
                                             recipe->placement);

@@ -23,8 +23,8 @@ struct StoredMap {
   graph::Placement placement;  ///< of these items
 };
 
-/// Choices of who looks at a store.
-struct MapChoice {
+/// The part of a store that a map is made of, and how.
+struct MapSelection {
   std::optional<GeoPoint> origin;  ///< of ENU; else that of the agent's last map, or the least node's
   std::optional<double> voxel_m;   ///< else as in the agent's last map
   std::vector<AgentId> without;    ///< robots whose nodes and alignments are left out
@@ -36,7 +36,7 @@ Result<std::vector<AgentId>> robots_named(const std::vector<std::string>& names)
 Status check_store(const std::filesystem::path& file);
 
 /// Places the nodes of a store. Fails for a robot to be left out of which it holds nothing.
-Result<StoredMap> open_map(const std::filesystem::path& file, const MapChoice& choice);
+Result<StoredMap> open_map(const std::filesystem::path& file, const MapSelection& selection);
 
 /// Poses of the nodes that map.ply contains.
 std::map<NodeId, Pose> shown_poses(const StoredMap& map);

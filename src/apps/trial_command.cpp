@@ -13,13 +13,13 @@ void add_trial(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "trial",
       "runs robots as processes in network namespaces over a grid of QoS profiles, settings "
-      "and links, one after another in real time, and reports what came of it; root");
+      "and links, one after another in real time, and reports the results; needs root");
   command->add_option("file", options->grid.config, "TRIAL.yaml: as an experiment, with keys of `field`")
       ->required();
   command
       ->add_option(
           "--traces", options->traces,
-          "CSV of what links had in the field: time_s, link, from, to, kbit_s, ms, loss_percent; robots' "
+          "CSV of links measured in the field: time_s, link, from, to, kbit_s, ms, loss_percent; robots' "
           "own are link_trace.csv")
       ->check(CLI::ExistingFile);
   command->add_option("--field", options->script, "deploy/netns/field.sh");

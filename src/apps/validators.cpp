@@ -81,8 +81,8 @@ CLI::Validator file_ending(std::vector<std::string> extensions) {
 
 CLI::Validator reference_system() {
   const auto check = [](const std::string& text) {
-    const auto choice = output::parse_crs(text);
-    return choice ? std::string() : choice.error().message;
+    const auto crs = output::parse_crs(text);
+    return crs ? std::string() : crs.error().message;
   };
   return {check, "CRS"};
 }

@@ -10,20 +10,21 @@ namespace fleetmap::apps {
 void add_world(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<WorldOptions>();
   CLI::App* command =
-      app.add_subcommand("world", "make a world of the twin: its mesh and ground-truth points");
+      app.add_subcommand("world", "makes a world of the twin: its mesh and ground-truth points");
   command->add_option("file", options->file, "WORLD.yaml")->required();
   command
-      ->add_option("--out", options->out,
-                   "folder for world.ply, world.obj, truth.ply and site.geojson; else it is only described")
+      ->add_option(
+          "--out", options->out,
+          "folder for world.ply, world.obj, truth.ply and site.geojson; else a description is printed")
       ->check(some_path());
-  command->add_option("--seed", options->seed, "instead of the file's")->check(whole_number(0));
+  command->add_option("--seed", options->seed, "seed instead of the file's")->check(whole_number(0));
   command
       ->add_option("--map-error", options->files.map_error,
-                   "m, by which site.geojson, the drawing of the site for a mission, is off")
+                   "m, error of site.geojson, the drawing of the site for a mission")
       ->check(non_negative_number());
   command->add_option("--density", options->files.density, "ground-truth points per m^2 of surface")
       ->check(positive_number());
-  command->add_option("--max-points", options->files.max_points, "ground-truth points at most")
+  command->add_option("--max-points", options->files.max_points, "maximum number of ground-truth points")
       ->check(whole_number(1, 200'000'000));
   command->callback([options, &exit_code] { exit_code = report(make_world(*options, std::cout)); });
 }

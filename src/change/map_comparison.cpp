@@ -10,9 +10,11 @@
 namespace fleetmap::change {
 namespace {
 
-/// Cells that the other day saw through are one object within this many cells: rays leave gaps.
+/// Free cells of the other session within this many cells of each other are one object, because rays leave
+/// gaps.
 constexpr double kGap = 3.5;
-/// So far an object goes on, at most, where the other day did not see.
+/// Unobserved points within this distance of a cell that the other session saw through belong to the same
+/// object.
 constexpr float kHidden = 2.0f;  // m
 /// A cell as high as a surface of the other day within this distance is taken for more of that surface:
 /// ground between two rings of the LiDAR.

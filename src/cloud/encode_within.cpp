@@ -12,8 +12,8 @@ namespace fleetmap::cloud {
 namespace {
 
 constexpr double kGoodEnough = 0.97;  // of the budget: finer voxels would gain next to nothing
-/// A coded point takes about so many bytes. A cloud that exceeds the budget this often by that is not coded
-/// in full only to find that it does not fit.
+/// Bytes of a coded point, about. A cloud whose estimated size exceeds the budget by the factor below is not
+/// encoded at the finest voxels, since that takes long and cannot fit.
 constexpr double kBytesPerPoint = 1.5;
 constexpr double kFarTooBig = 2.0;
 

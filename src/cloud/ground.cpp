@@ -152,7 +152,7 @@ class GroundGrid {
 
   double allowance(const Cell& a, const Cell& b) const {
     return static_cast<double>(config_.step_m) +
-           std::tan(static_cast<double>(config_.max_bend_rad)) * (center(a) - center(b)).norm();
+           std::tan(static_cast<double>(config_.max_slope_change_rad)) * (center(a) - center(b)).norm();
   }
   bool continues(const Cell& a, const Cell& b) const {
     const double limit = allowance(a, b);

@@ -9,7 +9,8 @@ Status GroundConfig::validate() const {
   if (!(step_m > 0.0f)) return failure("step_m must be positive");
   if (!(max_slope_rad > 0.0f && max_slope_rad < 1.5f))
     return failure("max_slope_rad must be in (0, 1.5) rad");
-  if (!(max_bend_rad >= 0.0f && max_bend_rad < 1.5f)) return failure("max_bend_rad must be in [0, 1.5) rad");
+  if (!(max_slope_change_rad >= 0.0f && max_slope_change_rad < 1.5f))
+    return failure("max_slope_change_rad must be in [0, 1.5) rad");
   if (!(min_area_m2 >= 0.0f)) return failure("min_area_m2 must not be negative");
   return {};
 }

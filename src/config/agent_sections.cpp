@@ -62,7 +62,7 @@ void read_agent(Section& top, agent::AgentConfig& agent) {
   read_mapping(top, agent);
   read_registration(top, agent);
   read_own_path(top, agent.own_path);
-  read_loop_closure(top, agent.loop_closure);
+  read_loop_candidates(top, agent.loop_closure);
   read_exchange(top, agent);
 }
 

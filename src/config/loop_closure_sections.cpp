@@ -5,7 +5,7 @@
 namespace fleetmap::config {
 
 void read_own_path(Section& top, loop_closure::OwnPathConfig& own_path) {
-  Section section = top.section("loop_closures");
+  Section section = top.section("own_path");
   section.read("reach", own_path.reach);
   section.read("min_path", own_path.min_path);
   section.read("spacing", own_path.spacing);
@@ -13,7 +13,7 @@ void read_own_path(Section& top, loop_closure::OwnPathConfig& own_path) {
   section.check(own_path.validate());
 }
 
-void read_loop_closure(Section& top, loop_closure::LoopClosureConfig& closure) {
+void read_loop_candidates(Section& top, loop_closure::CandidateConfig& closure) {
   Section proximity = top.section("proximity");
   std::string uncertainty = place::to_string(closure.proximity.uncertainty);
   proximity.read("uncertainty", uncertainty);

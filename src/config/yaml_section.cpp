@@ -22,10 +22,11 @@ std::string text_of(const YAML::Node& node) {
 }
 
 /// Keys that had another name in earlier versions: former name, present name.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kRenamed{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kRenamed{{
     {"encounters", "loop_candidates"},
     {"least_gain", "min_gain"},
     {"least_side_ratio", "min_side_ratio"},
+    {"loop_closures", "own_path"},
     {"min_worth", "min_information"},
     {"ripe_after", "max_wait"},
     {"ripe_nodes", "min_nodes_after"},

@@ -133,7 +133,7 @@ PlotFrame::PlotFrame(const Axes& axes, Range x, Range y, std::vector<std::string
   fit(x, y);
 }
 
-/// In rows between the title and the drawing, which gives way.
+/// Places the legend in rows between title and drawing, and moves the drawing's top below them.
 void PlotFrame::place_legend() {
   constexpr double kRow = 18.0, kLetter = 7.0, kBox = 30.0;
   double x = left_, y = top_;

@@ -113,10 +113,10 @@ Result<TrajectoryErrors> compare(const Trajectory& estimate, const Trajectory& t
 
 Result<FleetErrors> compare_jointly(std::span<const Track> tracks) {
   std::vector<Match> all;
-  double bend = 0.0;
+  double within = 0.0;
   for (const Track& track : tracks) {
     const std::vector<Match> matches = matches_of(*track.estimate, *track.truth);
-    if (matches.size() >= 3) bend += squares_aligned(positions_of(matches));
+    if (matches.size() >= 3) within += squares_aligned(positions_of(matches));
     all.insert(all.end(), matches.begin(), matches.end());
   }
   if (all.size() < 3) {
@@ -126,14 +126,14 @@ Result<FleetErrors> compare_jointly(std::span<const Track> tracks) {
   const Positions positions = positions_of(all);
   const double unaligned = (positions.estimated - positions.wanted).colwise().squaredNorm().sum();
   const double joint = std::min(unaligned, squares_aligned(positions));
-  bend = std::min(bend, joint);
+  within = std::min(within, joint);
   FleetErrors errors;
   errors.poses = all.size();
   errors.unaligned = rms(unaligned, all.size());
   errors.joint = rms(joint, all.size());
   errors.georeference = rms(unaligned - joint, all.size());
-  errors.between_robots = rms(joint - bend, all.size());
-  errors.bend = rms(bend, all.size());
+  errors.between_robots = rms(joint - within, all.size());
+  errors.within_robots = rms(within, all.size());
   return errors;
 }
 

@@ -5,11 +5,11 @@
 namespace fleetmap::exchange {
 
 CloudExchange::CloudExchange(const CloudTransferConfig& config, const store::Store& store,
-                             LoopCloser& loop_closer, SendQueue& queue, std::vector<Event>& events)
+                             CloudClient& cloud_client, SendQueue& queue, std::vector<Event>& events)
     : self_(store.self()),
       config_(config),
       store_(store),
-      loop_closer_(loop_closer),
+      cloud_client_(cloud_client),
       queue_(queue),
       events_(events),
       sender_(self_, config),
@@ -37,7 +37,7 @@ void CloudExchange::on_own_alignment(const graph::Alignment& alignment) {
 
 void CloudExchange::on_fragment(const CloudFragment& fragment, Stamp now) {
   auto cloud = receiver_.add(fragment, now);
-  if (cloud) loop_closer_.on_cloud(fragment.node, std::move(*cloud));
+  if (cloud) cloud_client_.on_cloud(fragment.node, std::move(*cloud));
 }
 
 void CloudExchange::on_request(const CloudRequest& request, Stamp now) {
@@ -45,7 +45,7 @@ void CloudExchange::on_request(const CloudRequest& request, Stamp now) {
     ++bad_requests_;
     return;
   }
-  loop_closer_.on_cloud_request(request.from, request.node);
+  cloud_client_.on_cloud_request(request.from, request.node);
   if (auto fragments = sender_.answer(request, now)) return send(std::move(*fragments), request.information);
   const auto [needed, is_new] = needed_.try_emplace(request.node);
   needed->second.by[request.from] = request.information;
@@ -60,18 +60,18 @@ void CloudExchange::send(std::vector<CloudFragment> fragments, float information
 }
 
 void CloudExchange::tick(bool radio_has_room, Stamp now) {
-  auto demand = loop_closer_.tick(now, radio_has_room);
+  auto demand = cloud_client_.tick(now, radio_has_room);
   for (const NodePair& pair : demand.withdrawn) {
-    if (!loop_closer_.wants(pair.theirs)) receiver_.cancel(pair.theirs);
+    if (!cloud_client_.wants(pair.theirs)) receiver_.cancel(pair.theirs);
     queue_.cancel_cloud(pair.theirs.agent, pair.ours);
   }
   for (ProximityMatch& match : demand.matches) queue_.push(Priority::kControl, std::move(match));
   for (const auto& [node, information] : demand.wanted) {
-    if (!receiver_.want(node, now, information)) loop_closer_.on_cloud_lost(node, now);
+    if (!receiver_.want(node, now, information)) cloud_client_.on_cloud_lost(node, now);
   }
   auto due = receiver_.tick(now);
   for (CloudRequest& request : due.requests) queue_.push(Priority::kControl, std::move(request));
-  for (const NodeId& node : due.abandoned) loop_closer_.on_cloud_lost(node, now);
+  for (const NodeId& node : due.abandoned) cloud_client_.on_cloud_lost(node, now);
 }
 
 }  // namespace fleetmap::exchange

@@ -8,9 +8,9 @@
 #include "cloud_transfer.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/cloud_client.hpp"
 #include "fleetmap/exchange/exchange_config.hpp"
 #include "fleetmap/exchange/exchange_events.hpp"
-#include "fleetmap/exchange/loop_closer.hpp"
 #include "fleetmap/exchange/send_queue.hpp"
 #include "fleetmap/store/store.hpp"
 
@@ -23,7 +23,7 @@ using messages::CloudRequest;
 class CloudExchange {
  public:
   /// The references outlive this.
-  CloudExchange(const CloudTransferConfig& config, const store::Store& store, LoopCloser& loop_closer,
+  CloudExchange(const CloudTransferConfig& config, const store::Store& store, CloudClient& cloud_client,
                 SendQueue& queue, std::vector<Event>& events);
 
   /// Answers CloudNeeded: sends the cloud to all robots that have requested it.
@@ -54,7 +54,7 @@ class CloudExchange {
   AgentId self_;
   CloudTransferConfig config_;
   const store::Store& store_;
-  LoopCloser& loop_closer_;
+  CloudClient& cloud_client_;
   SendQueue& queue_;
   std::vector<Event>& events_;
   CloudSender sender_;

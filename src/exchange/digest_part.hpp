@@ -18,7 +18,8 @@ std::vector<SeqRange> next_part(const std::vector<SeqRange>& ranges, std::size_t
 std::size_t after_part(std::size_t next, std::size_t count, std::size_t limit);
 
 /// The ranges in the order received, without those that are reversed, beyond kEndOfSeqs or of several
-/// sessions, which are counted in `hostile`: nobody numbers so many items that they reach the next session.
+/// sessions, which are counted in `hostile`, since no honest robot makes so many items that their numbers
+/// reach the next session.
 std::vector<SeqRange> plausible(const std::vector<SeqRange>& ranges, std::uint64_t& hostile);
 
 /// The offer of a robot after `part` of its digest, `offered` before: between two ranges of the part that

@@ -14,7 +14,7 @@ constexpr Duration kHellos = std::chrono::seconds(10);
 
 }  // namespace
 
-Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer,
+Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, CloudClient& cloud_client,
                                 Stamp now) {
   if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
   AdoptedItems adopted;
@@ -24,7 +24,7 @@ Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& stor
     adopted = *result;
   }
   const ExchangeConfig adapted = for_fleet(config);
-  auto state = std::make_unique<State>(adapted, store, loop_closer, now);
+  auto state = std::make_unique<State>(adapted, store, cloud_client, now);
   // The first messages of a large fleet that starts at once are spread, also because of the Hellos.
   const std::vector<AgentId>& all = adapted.on_radio;
   const auto index = std::ranges::find(all, store.self()) - all.begin();
@@ -160,7 +160,7 @@ std::vector<AgentId> Exchange::peers_in_reach(Stamp now) const {
   return state_->submap_receiver.neighbours().in_reach(now);
 }
 
-std::vector<AgentId> Exchange::asked_for_submaps() const { return state_->submap_receiver.asked(); }
+std::vector<AgentId> Exchange::submap_requesters() const { return state_->submap_receiver.asked(); }
 
 std::vector<AgentId> Exchange::in_sync_with(Stamp now) const {
   return state_->submap_receiver.neighbours().in_sync_with(state_->store, now);

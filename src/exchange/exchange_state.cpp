@@ -12,16 +12,16 @@ constexpr double kBusyPeriods = 2.5;
 }  // namespace
 
 Exchange::State::State(const ExchangeConfig& config_of_fleet, store::Store& store_of_robot,
-                       LoopCloser& closer, Stamp now)
+                       CloudClient& closer, Stamp now)
     : config(config_of_fleet),
       store(store_of_robot),
-      loop_closer(closer),
+      cloud_client(closer),
       members(store.self(), config.fleet),
       shares(store.self(), config.on_radio, config.long_range.fleet_bytes_per_second, config.status_period,
              now),
       outbox(store.self(), config),
-      clouds(config.clouds, store, loop_closer, outbox.queue(), events),
-      items(config, store, loop_closer, members, outbox, events, now),
+      clouds(config.clouds, store, cloud_client, outbox.queue(), events),
+      items(config, store, cloud_client, members, outbox, events, now),
       submap_receiver(store.self(), config.submaps),
       submap_sender(store.self(), config.submaps),
       holds(store.self(), members.fleet()) {
@@ -47,7 +47,7 @@ bool Exchange::State::admit(const Message& message, Reach link, Stamp now) {
   // A robot that is heard on the short range but does not hear this one cannot answer requests.
   if (link == Reach::kLongRange || submap_receiver.neighbours().hears_us(*sender, now)) {
     items.reconcile().on_heard(*sender, now);
-    loop_closer.on_heard(*sender, now);
+    cloud_client.on_heard(*sender, now);
   }
   const auto recipient = recipient_of(message);
   return !recipient || *recipient == members.self();
@@ -92,7 +92,7 @@ void Exchange::State::handle(const graph::Alignment& alignment, const Delivery& 
 }
 
 void Exchange::State::handle(const ProximityMatch& match, const Delivery&, Stamp now) {
-  loop_closer.on_match(match, now);
+  cloud_client.on_match(match, now);
 }
 
 void Exchange::State::handle(const CloudFragment& fragment, const Delivery&, Stamp now) {
@@ -277,7 +277,7 @@ bool Exchange::State::complete(const std::set<AgentId>& without) const {
 bool Exchange::State::idle(Stamp now, const std::set<AgentId>& without) const {
   const auto is_sent = [&](Priority priority) { return outbox.queue().size(priority) == 0; };
   return is_sent(Priority::kControl) && is_sent(Priority::kNews) && is_sent(Priority::kBackfill) &&
-         is_sent(Priority::kCloud) && clouds.idle(without) && loop_closer.idle(now, without) &&
+         is_sent(Priority::kCloud) && clouds.idle(without) && cloud_client.idle(now, without) &&
          submap_receiver.idle(store, now) && submap_sender.idle();
 }
 

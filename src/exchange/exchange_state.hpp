@@ -41,7 +41,7 @@ struct Exchange::State {
   /// Key of the orders in the store.
   static constexpr const char* kHoldKey = "hold_orders";
 
-  State(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer, Stamp now);
+  State(const ExchangeConfig& config, store::Store& store, CloudClient& cloud_client, Stamp now);
   State(const State&) = delete;  // the parts refer to each other
   State& operator=(const State&) = delete;
 
@@ -58,7 +58,7 @@ struct Exchange::State {
 
   ExchangeConfig config;
   store::Store& store;
-  LoopCloser& loop_closer;
+  CloudClient& cloud_client;
   std::vector<Event> events;
   Membership members;
   Misbehaviour misbehaviour;

@@ -7,19 +7,19 @@ namespace fleetmap::exchange {
 
 using store::Put;
 
-ItemExchange::ItemExchange(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer,
+ItemExchange::ItemExchange(const ExchangeConfig& config, store::Store& store, CloudClient& cloud_client,
                            Membership& members, Outbox& outbox, std::vector<Event>& events, Stamp now)
     : store_(store),
-      loop_closer_(loop_closer),
+      cloud_client_(cloud_client),
       members_(members),
       outbox_(outbox),
       events_(events),
       verifier_(config.authenticator),
       own_items_(members.self()),
       reconcile_(members.self(), config.reconcile) {
-  for (const auto& [id, alignment] : store.alignments()) loop_closer_.on_alignment(alignment, now);
+  for (const auto& [id, alignment] : store.alignments()) cloud_client_.on_alignment(alignment, now);
   for (const auto& [id, node] : store.nodes()) {
-    loop_closer_.on_node(node, now);
+    cloud_client_.on_node(node, now);
     if (!store.has_submap(id)) missing_submaps_.add(id, now);
   }
 }
@@ -32,7 +32,7 @@ Result<Put> ItemExchange::add_own(const graph::Node& made, ByteView submap, Stam
   if (!put || *put != Put::kAdded) return put;
   outbox_.broadcast(Priority::kNews, node);
   reconcile_.on_item(now);
-  loop_closer_.on_node(node, now);
+  cloud_client_.on_node(node, now);
   return put;
 }
 
@@ -42,7 +42,7 @@ Result<Put> ItemExchange::add_own(const graph::Alignment& made, Stamp now) {
   if (!put || *put != Put::kAdded) return put;
   outbox_.broadcast(Priority::kNews, alignment);
   reconcile_.on_item(now);
-  loop_closer_.on_alignment(alignment, now);
+  cloud_client_.on_alignment(alignment, now);
   return put;
 }
 
@@ -77,7 +77,7 @@ void ItemExchange::on_put(const Result<Put>& put, const Event& added, const Name
     events_.push_back(added);
   } else if (*put == Put::kConflict) {
     if (!name.alignment) {
-      loop_closer_.on_contested(name.id);
+      cloud_client_.on_contested(name.id);
       missing_submaps_.remove(name.id);
     }
     reconcile_.on_contested(now);
@@ -94,7 +94,7 @@ void ItemExchange::receive(const graph::Node& node, const Delivery& delivery, St
   on_put(put, NodeAdded{node.id}, name, delivery, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
-  loop_closer_.on_node(node, now);
+  cloud_client_.on_node(node, now);
   if (!store_.has_submap(node.id)) missing_submaps_.add(node.id, now);
 }
 
@@ -109,7 +109,7 @@ void ItemExchange::receive(const graph::Alignment& alignment, const Delivery& de
   on_put(put, AlignmentAdded{{alignment.computed_by, alignment.seq}}, name, delivery, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
-  loop_closer_.on_alignment(alignment, now);
+  cloud_client_.on_alignment(alignment, now);
 }
 
 void ItemExchange::on_submap(const NodeId& node) { missing_submaps_.remove(node); }

@@ -7,9 +7,9 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/cloud_client.hpp"
 #include "fleetmap/exchange/exchange_config.hpp"
 #include "fleetmap/exchange/exchange_events.hpp"
-#include "fleetmap/exchange/loop_closer.hpp"
 #include "fleetmap/store/store.hpp"
 #include "item_verifier.hpp"
 #include "membership.hpp"
@@ -35,8 +35,8 @@ struct Delivery {
 /// of this robot; Reconcile finds those that are missing.
 class ItemExchange {
  public:
-  /// The references outlive this. Reports the items in `store` to `loop_closer`.
-  ItemExchange(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer,
+  /// The references outlive this. Reports the items in `store` to `cloud_client`.
+  ItemExchange(const ExchangeConfig& config, store::Store& store, CloudClient& cloud_client,
                Membership& members, Outbox& outbox, std::vector<Event>& events, Stamp now);
 
   void begin_session(std::uint16_t session) { own_items_.begin_session(session); }
@@ -72,7 +72,7 @@ class ItemExchange {
   void report_conflict(const Name& name, const Delivery& delivery);
 
   store::Store& store_;
-  LoopCloser& loop_closer_;
+  CloudClient& cloud_client_;
   Membership& members_;
   Outbox& outbox_;
   std::vector<Event>& events_;

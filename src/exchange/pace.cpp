@@ -34,12 +34,12 @@ void Pace::forget_before(Stamp now) {
 bool Pace::may_exceed_peak(double bytes, Stamp now) const {
   const bool fits_alone = bytes <= config_.peak * rate();
   if (!fits_alone) return !last_taken_ || now - *last_taken_ >= kSecond;
-  return now - last_taken_.value_or(*first_asked_) >= kLongestWait;
+  return now - last_taken_.value_or(*first_requested_) >= kLongestWait;
 }
 
 bool Pace::take(double bytes, Stamp now, double reserve) {
   forget_before(now);
-  if (!first_asked_) first_asked_ = now;
+  if (!first_requested_) first_requested_ = now;
   const bool below_peak = in_last_second_ + bytes <= config_.peak * rate();
   if (!below_peak && !may_exceed_peak(bytes, now)) return false;
   if (!bucket_.take(bytes, now, reserve)) return false;

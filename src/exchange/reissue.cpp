@@ -40,17 +40,17 @@ const Node* neighbour(const store::Store& store, const Node& node) {
   return before;
 }
 
-/// Ties `named`, which is a copy of `node`, to `other` by the odometry.
-Alignment odometry_tie(const Node& other, const Node& node, const Node& named) {
+/// The alignment of `other` and `named`, a copy of `node`, by the odometry between them.
+Alignment odometry_alignment(const Node& other, const Node& node, const Node& named) {
   constexpr double kVariance = 1e-4;  // m^2, rad^2; of a step of the odometry, and no solver divides by zero
-  Alignment tie;
-  tie.i = other.id;
-  tie.j = named.id;
-  graph::AlignmentMode& mode = tie.modes.front();
+  Alignment step;
+  step.i = other.id;
+  step.j = named.id;
+  graph::AlignmentMode& mode = step.modes.front();
   mode.T_i_j = other.T_odom_base.inverse() * node.T_odom_base;
   mode.inlier_fraction = mode.score = 1.0;
   mode.covariance = node.odom_covariance + kVariance * Matrix6d::Identity();
-  return tie;
+  return step;
 }
 
 class Reissue {
@@ -96,7 +96,7 @@ class Reissue {
     if (*put != store::Put::kAdded) return {};
     ++reissued_;
     const Node* other = neighbour(store_, node);
-    return other ? reissue(odometry_tie(*other, node, named)) : Status{};
+    return other ? reissue(odometry_alignment(*other, node, named)) : Status{};
   }
 
   Status reissue(Alignment alignment) {

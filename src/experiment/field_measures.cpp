@@ -62,7 +62,7 @@ double quantile(std::vector<double> values, double share) {
   return values[at];
 }
 
-/// When a robot came to hold each node, s. After a restart it tells again of what it held.
+/// Time at which a robot came to hold each node, s. After a restart its log repeats the nodes that it held.
 Result<std::map<std::string, double>> node_times(const fs::path& robot) {
   const auto rows = read_csv(robot / "node_times.csv", {"node", "time_ns"});
   if (!rows) return tl::unexpected(rows.error());

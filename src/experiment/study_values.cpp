@@ -114,7 +114,7 @@ std::vector<std::string> absent_metrics(const config::ExperimentConfig& config,
     const auto is_done = [&](const CaseRecord& record) {
       return record.of.study == study.name && record.done();
     };
-    if (std::ranges::none_of(records, is_done)) continue;  // a failed study has nothing to say of names
+    if (std::ranges::none_of(records, is_done)) continue;  // a failed study has no names
     for (const std::string& metric : wanted) {
       const bool reported = std::ranges::any_of(records, [&](const CaseRecord& record) {
         return is_done(record) && record.result->metrics.contains(metric);

@@ -46,7 +46,7 @@ void ExchangeFleet::pass_on(const AgentId& name, Robot& robot) {
     robot.events.push_back(event);
     on_event(name, robot, event);
   }
-  for (auto& received : robot.loop_closer->take_received()) {
+  for (auto& received : robot.cloud_client->take_received()) {
     robot.received.push_back(received);
     on_received(name, robot, received);
   }
@@ -61,10 +61,10 @@ Status ExchangeFleet::start(const AgentId& name, const store::StoreConfig& store
   robot.store = std::make_unique<store::Store>(std::move(*opened));
   const auto session = draw_session(*robot.store);
   if (!session) return tl::unexpected(session.error());
-  loop_closure::LoopClosureConfig loops = loop_config_;
+  loop_closure::CandidateConfig loops = loop_config_;
   loops.peer_timeout = exchange::for_fleet(loops.peer_timeout, config_);
-  robot.loop_closer = std::make_unique<loop_closure::CandidateScheduler>(name, loops);
-  auto made = exchange::Exchange::make(config_, *robot.store, *robot.loop_closer, now_ + clock_offset);
+  robot.cloud_client = std::make_unique<loop_closure::CandidateScheduler>(name, loops);
+  auto made = exchange::Exchange::make(config_, *robot.store, *robot.cloud_client, now_ + clock_offset);
   if (!made) return tl::unexpected(made.error());
   robot.exchange = std::make_unique<exchange::Exchange>(std::move(*made));
   robot.session = *session;

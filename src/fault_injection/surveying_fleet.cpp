@@ -189,7 +189,7 @@ void SurveyingFleet::finish_jobs() {
     }
     if (alignment && put)
       monitor_.note(Invariant::kOwnItems, job.robot, now(), "its own alignment is refused");
-    robot.loop_closer->on_rejected(job.pair, clock(robot));
+    robot.cloud_client->on_rejected(job.pair, clock(robot));
   }
 }
 
@@ -198,7 +198,7 @@ void SurveyingFleet::place(const AgentId& name, Robot& robot) {
   const std::size_t items = robot.store->nodes().size() + robot.store->alignments().size();
   if (!is_due(now(), kPlacementPeriod) || items == member.placed_items) return;
   member.placed_items = items;
-  robot.loop_closer->on_used_alignments(placement_of(robot, survey_.site()).used);
+  robot.cloud_client->on_used_alignments(placement_of(robot, survey_.site()).used);
 }
 
 void SurveyingFleet::drive(const AgentId& name, Robot& robot) {

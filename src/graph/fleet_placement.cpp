@@ -74,13 +74,13 @@ std::vector<AlignmentOutcome> outcomes(const Input& input, const Solution& solut
   return result;
 }
 
-std::map<AgentId, AgentCredit> credits(std::span<const AlignmentOutcome> outcomes,
-                                       const Rejection& rejection) {
-  std::map<AgentId, AgentCredit> result;
+std::map<AgentId, AlignmentStats> stats_by_agent(std::span<const AlignmentOutcome> outcomes,
+                                                 const Rejection& rejection) {
+  std::map<AgentId, AlignmentStats> result;
   for (const AlignmentOutcome& one : outcomes) {
-    AgentCredit& credit = result[one.computed_by];
-    credit.used += one.status == AlignmentStatus::used;
-    credit.rejected +=
+    AlignmentStats& stats = result[one.computed_by];
+    stats.used += one.status == AlignmentStatus::used;
+    stats.rejected +=
         one.status == AlignmentStatus::against_gps || one.status == AlignmentStatus::against_others;
   }
   for (const auto& [agent, sets] : rejection.outlier_sets) result[agent].outlier_sets = sets;
@@ -179,7 +179,7 @@ Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alig
   }
   placement.outcomes = outcomes(input, solution);
   placement.contradicting = solution.rejection.contradicting;
-  placement.credits = credits(placement.outcomes, solution.rejection);
+  placement.alignment_stats = stats_by_agent(placement.outcomes, solution.rejection);
   placement.used = used_alignments(input, solution.rejection);
   add_poses(solution.graph, solution.rejection.estimate, placement);
   placement.components = components(solution);

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 constexpr double kUnknownYawVariance = std::numbers::pi * std::numbers::pi / 3.0;  // uniform over the circle
 constexpr double kLostYawVariance = 1.0;  ///< rad^2 at which linearisation has no meaning
-constexpr double kMinOverruledYaw = 0.5;  ///< rad; smaller errors the filter mends by itself
-constexpr int kContradictionsToOverrule = 3;
+constexpr double kMinResetYaw = 0.5;      ///< rad; smaller errors the filter mends by itself
+constexpr int kContradictionsToReset = 3;
 constexpr int kMinFixesToRecover = 5;
 constexpr double kMotionStep = 0.5;  ///< s
 
@@ -149,7 +149,8 @@ void take_imu(const EkfConfig& config, Filter& filter, const sensor::Imu& imu) {
   if (!filter.heading_set) try_reported_orientation(config, filter, imu);
 }
 
-/// Heading from the last metres driven: the first one, or one that overrules what proves to be wrong.
+/// Heading from the last metres driven: the first one, or one that replaces a heading that several
+/// displacements contradict.
 void watch_heading(const EkfConfig& config, Filter& filter, const Vector3d& p_enu_antenna,
                    const Matrix3d& R) {
   const double sigma = std::sqrt(std::max(R(0, 0), R(1, 1)));
@@ -169,10 +170,10 @@ void watch_heading(const EkfConfig& config, Filter& filter, const Vector3d& p_en
   if (filter.phase == Phase::kTracking) {
     // Without an odometer a reversing robot is indistinguishable from one with the opposite heading.
     const double sigma_both = std::hypot(estimate->sigma, std::sqrt(filter.P(kAtt + 2, kAtt + 2)));
-    const bool contradicts = odometer && std::abs(wrap_angle(yaw - yaw_of(filter.R))) >
-                                             std::max(kMinOverruledYaw, 4.0 * sigma_both);
+    const bool contradicts =
+        odometer && std::abs(wrap_angle(yaw - yaw_of(filter.R))) > std::max(kMinResetYaw, 4.0 * sigma_both);
     filter.heading_contradictions = contradicts ? filter.heading_contradictions + 1 : 0;
-    if (filter.heading_contradictions < kContradictionsToOverrule) return;
+    if (filter.heading_contradictions < kContradictionsToReset) return;
     ++filter.counters.heading_resets;
   }
   lose_heading(config, filter);

@@ -14,18 +14,18 @@
 
 namespace fleetmap::loop_closure {
 
-/// Pairs by the place of their own node, in cubes on Earth and in its odometry frame, so that those near a
-/// node are found without a visit to all.
+/// Spatial index of pairs by the position of their own node, on Earth and in its odometry frame, so that the
+/// pairs near a node are found without a scan of all.
 class CandidateGrid {
  public:
   /// `cell_m`: no search goes farther. `nodes` outlives this.
   CandidateGrid(double cell_m, const NodeIndex& nodes) : cell_m_(cell_m), nodes_(nodes) {}
 
-  /// Its own node may come later: on_node().
+  /// The pair's own node may be added later by on_node().
   void add(const NodePair& pair);
   void erase(const NodePair& pair);
   void on_node(const NodeId& node);
-  /// In order, of the pairs whose own node is nearer to `node` than a cell all, and some others.
+  /// All pairs whose own node lies within `cell_m` of `node`, in order, and some whose own node is farther.
   std::set<NodePair> around(const NodeId& node) const;
 
  private:

@@ -27,7 +27,7 @@ void fail(ScheduledCandidate& candidate, Stamp retry_at) {
 }  // namespace
 
 struct CandidateScheduler::State {
-  State(const AgentId& self, const LoopClosureConfig& config)
+  State(const AgentId& self, const CandidateConfig& config)
       : nodes(self, config.max_sigma_m),
         positions(self, config.proximity),
         descriptors(config.descriptors, config.proximity.max_radius),
@@ -43,7 +43,7 @@ struct CandidateScheduler::State {
   CandidateSelection selection;
 };
 
-CandidateScheduler::CandidateScheduler(const AgentId& self, const LoopClosureConfig& config)
+CandidateScheduler::CandidateScheduler(const AgentId& self, const CandidateConfig& config)
     : self_(self), config_(config), state_(std::make_unique<State>(self, config_)) {}
 
 CandidateScheduler::~CandidateScheduler() = default;
@@ -232,7 +232,7 @@ void CandidateScheduler::on_rejected(const NodePair& pair, Stamp now) {
 void CandidateScheduler::request(exchange::CloudDemand& demand, Stamp now, bool radio_has_room) {
   CandidateSet& candidates = state_->candidates;
   // A robot that fell silent must not keep the others waiting for its clouds.
-  auto active = static_cast<std::size_t>(std::ranges::count_if(candidates.all(), [&](const auto& entry) {
+  auto active = static_cast<std::size_t>(std::ranges::count_if(candidates.open(), [&](const auto& entry) {
     const auto& [pair, candidate] = entry;
     return (candidate.phase == Phase::kRequested && heard(pair.theirs.agent, now)) ||
            candidate.phase == Phase::kRegistering;
@@ -277,7 +277,7 @@ exchange::CloudDemand CandidateScheduler::tick(Stamp now, bool radio_has_room) {
 // ------------------------------------------------------------------------------------------------------
 
 bool CandidateScheduler::wants(const NodeId& theirs) const {
-  return std::ranges::any_of(state_->candidates.all(), [&](const auto& entry) {
+  return std::ranges::any_of(state_->candidates.open(), [&](const auto& entry) {
     return entry.first.theirs == theirs && entry.second.phase == Phase::kRequested;
   });
 }
@@ -285,7 +285,7 @@ bool CandidateScheduler::wants(const NodeId& theirs) const {
 bool CandidateScheduler::idle(Stamp now, const std::set<AgentId>& without) const {
   const CandidateSet& candidates = state_->candidates;
   if (state_->transforms.pending() && candidates.room() > 0) return false;
-  return std::ranges::none_of(candidates.all(), [&](const auto& entry) {
+  return std::ranges::none_of(candidates.open(), [&](const auto& entry) {
     const auto& [pair, candidate] = entry;
     if (without.contains(pair.theirs.agent)) return false;
     if (candidate.under_way()) return true;
@@ -298,10 +298,10 @@ bool CandidateScheduler::has_good_alignment(const AgentId& peer) const {
   return state_->candidates.is_aligned(peer);
 }
 
-LoopClosureStats CandidateScheduler::stats() const {
-  LoopClosureStats all = stats_;
+CandidateStats CandidateScheduler::stats() const {
+  CandidateStats all = stats_;
   all.redundant = state_->candidates.redundant_count();
-  all.crowded_out = state_->candidates.crowded_out_count();
+  all.overflowed = state_->candidates.overflowed_count();
   all.uninformative = state_->selection.uninformative_count();
   return all;
 }

@@ -21,7 +21,7 @@ bool CandidateSelection::clouds_complete(const NodePair& pair, const ScheduledCa
 std::vector<NodePair> CandidateSelection::ready(const std::function<bool(const AgentId&)>& is_heard,
                                                 Stamp now) {
   std::vector<NodePair> ready, obsolete, exhausted;
-  for (const auto& [pair, candidate] : candidates_.all()) {
+  for (const auto& [pair, candidate] : candidates_.open()) {
     // The cheap conditions are tested first: the others search around the pair.
     if (!is_heard(pair.theirs.agent) || !clouds_complete(pair, candidate, now)) continue;
     if (candidate.phase != Phase::kWaiting && !candidates_.retryable(pair, candidate)) {
@@ -49,7 +49,7 @@ std::optional<CandidateSelection::Selected> CandidateSelection::next(std::vector
                                                                      bool radio_has_room) {
   std::vector<graph::InformationGain::Pair> pairs, expected;
   for (const NodePair& pair : ready) pairs.emplace_back(pair.ours, pair.theirs);
-  for (const auto& [pair, candidate] : candidates_.all()) {
+  for (const auto& [pair, candidate] : candidates_.open()) {
     if (candidate.under_way()) expected.emplace_back(pair.ours, pair.theirs);
   }
   const std::vector<double> information = information_.of(pairs, expected);

@@ -22,7 +22,7 @@ class CandidateSelection {
   };
 
   /// The references outlive this.
-  CandidateSelection(const LoopClosureConfig& config, const NodeIndex& nodes, CandidateSet& candidates)
+  CandidateSelection(const CandidateConfig& config, const NodeIndex& nodes, CandidateSet& candidates)
       : config_(config), nodes_(nodes), candidates_(candidates) {}
 
   graph::InformationGain& information() { return information_; }
@@ -38,7 +38,7 @@ class CandidateSelection {
  private:
   bool clouds_complete(const NodePair& pair, const ScheduledCandidate& candidate, Stamp now) const;
 
-  const LoopClosureConfig& config_;
+  const CandidateConfig& config_;
   const NodeIndex& nodes_;
   CandidateSet& candidates_;
   graph::InformationGain information_;

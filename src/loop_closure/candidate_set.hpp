@@ -9,8 +9,8 @@
 
 #include "candidate_grid.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
 #include "node_index.hpp"
 
 namespace fleetmap::loop_closure {
@@ -41,12 +41,12 @@ class CandidateSet {
   using Candidates = std::map<NodePair, ScheduledCandidate>;
 
   /// `config` and `nodes` outlive this.
-  CandidateSet(const LoopClosureConfig& config, const NodeIndex& nodes)
+  CandidateSet(const CandidateConfig& config, const NodeIndex& nodes)
       : config_(config), nodes_(nodes), grid_(largest_spacing(config), nodes) {}
 
   /// Those that are neither done nor abandoned. A long drive has many of these, and they only keep others
   /// away.
-  const Candidates& all() const { return candidates_; }
+  const Candidates& open() const { return candidates_; }
   bool contains(const NodePair& pair) const {
     return candidates_.contains(pair) || done_.contains(pair) || abandoned_.contains(pair);
   }
@@ -54,21 +54,21 @@ class CandidateSet {
   void on_node(const NodeId& node) { grid_.on_node(node); }
   /// The node was removed from the index: its candidates no longer keep others away.
   void on_removed_node() { reopen(); }
-  /// Null: there is none. One that is done or abandoned is not in all().
+  /// Null: there is none. One that is done or abandoned is not in open().
   ScheduledCandidate* find(const NodePair& pair);
   ScheduledCandidate& at(const NodePair& pair) { return candidates_.at(pair); }
   /// Makes it if there is none.
   ScheduledCandidate& find_or_make(const NodePair& pair);
-  /// The candidate is aligned.
+  /// Marks the candidate as aligned.
   void conclude(const NodePair& pair);
-  /// A failed candidate that has had its attempts, or that one which is done or abandoned makes redundant.
-  /// Only another one that is erased, or a node that is removed, can make it retryable().
+  /// True for a failed candidate that has used all its attempts, or that is redundant beside a done or an
+  /// abandoned one. It becomes retryable() only when such a candidate is erased or a node is removed.
   bool is_exhausted(const NodePair& pair, const ScheduledCandidate& candidate) const;
-  /// Takes an exhausted candidate out of all().
+  /// Takes an exhausted candidate out of open().
   void abandon(const NodePair& pair) { abandoned_.insert(candidates_.extract(pair)); }
   /// The peer has all candidates of our node `ours` with it.
   void set_known_to_peer(const NodeId& ours, const AgentId& peer);
-  /// Those in all().
+  /// Those in open().
   template <class Visitor>
   void for_each(Visitor visit) {
     for (auto& [pair, candidate] : candidates_) visit(pair, candidate);
@@ -107,11 +107,11 @@ class CandidateSet {
   bool retryable(const NodePair& pair, const ScheduledCandidate& candidate) const;
 
   std::uint64_t redundant_count() const { return redundant_; }
-  std::uint64_t crowded_out_count() const { return crowded_out_; }
+  std::uint64_t overflowed_count() const { return crowded_out_; }
   void count_redundant(std::uint64_t candidates = 1) { redundant_ += candidates; }
 
  private:
-  static double largest_spacing(const LoopClosureConfig& config) {
+  static double largest_spacing(const CandidateConfig& config) {
     return std::max({1.0, config.spacing_m, config.spacing_aligned_m, config.spacing_failed_m});
   }
   const ScheduledCandidate& held(const NodePair& pair) const;
@@ -127,7 +127,7 @@ class CandidateSet {
   /// Drops the oldest waiting candidate if too many wait.
   void crowd_out();
 
-  const LoopClosureConfig& config_;
+  const CandidateConfig& config_;
   const NodeIndex& nodes_;
   Candidates candidates_;
   Candidates done_;

@@ -40,7 +40,8 @@ class NodeIndex {
   bool any_unlocated() const { return any_unlocated_; }
   /// Nodes that its robot made after `node` in the same session; 0 if it is unknown.
   std::uint32_t nodes_after(const NodeId& node) const;
-  /// With whose nodes those of `agent` form pairs: with all peers if it is this robot, else with this robot.
+  /// The agents whose nodes form pairs with those of `agent`: all peers if `agent` is this robot, else this
+  /// robot.
   std::vector<AgentId> partners_of(const AgentId& agent) const;
   /// Both nodes were added, have comparable positions, and lie less than `limit` (m) apart.
   bool near(const NodeId& a, const NodeId& b, double limit) const;

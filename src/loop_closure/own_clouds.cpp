@@ -6,7 +6,7 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
-#include "pass_around.hpp"
+#include "path_segment.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
@@ -83,7 +83,7 @@ void OwnClouds::forget_submaps() {
 }
 
 std::shared_ptr<OwnCloud> OwnClouds::of(store::Store& store, const graph::Node& node) {
-  auto around = pass_around(store, node, static_cast<double>(config_.radius_m));
+  auto around = path_segment_around(store, node, static_cast<double>(config_.radius_m));
   std::erase_if(around, [&](const graph::Node* other) { return !store.has_submap(other->id); });
   CloudEntry& entry = clouds_[node.id];
   entry.used = ++uses_;

@@ -33,7 +33,7 @@ class OwnSubmap {
 };
 
 /// M^s of one own node (Alg. 3, first half), in its base_link, computed at the first call from the submaps
-/// of pass_around().
+/// of path_segment_around().
 class OwnCloud {
  public:
   using Submaps = std::vector<std::pair<Pose, std::shared_ptr<OwnSubmap>>>;  ///< with T_node_submap

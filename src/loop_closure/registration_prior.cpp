@@ -72,7 +72,7 @@ registration::Prior position_prior(const GlobalPose& target, const GlobalPose& s
 
 std::optional<registration::Prior> registration_prior(const LoopCandidate& candidate,
                                                       const graph::Node& target, const graph::Node& source,
-                                                      const LoopClosureConfig& config) {
+                                                      const CandidateConfig& config) {
   if (candidate.T_target_source) {
     const double added = candidate.origin == LoopCandidate::Origin::kOdometry ? kMinSigma : kTransformSigma;
     return transform_prior(*candidate.T_target_source, target.up_in_base, added);

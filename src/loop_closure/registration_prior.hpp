@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 
 namespace fleetmap::loop_closure {
@@ -18,11 +18,11 @@ registration::Prior position_prior(const GlobalPose& target, const GlobalPose& s
 ///   good GPS, so that the search window contains the neighbouring rows and posts too: if the transform is
 ///   one row off, the right pose is still among the modes;
 ///
-/// - else both G, if neither's horizontal sigma exceeds LoopClosureConfig::max_sigma_m;
+/// - else both G, if neither's horizontal sigma exceeds CandidateConfig::max_sigma_m;
 ///
 /// - else the descriptor match, if it reaches DescriptorMatchConfig::min_similarity.
 std::optional<registration::Prior> registration_prior(const LoopCandidate& candidate,
                                                       const graph::Node& target, const graph::Node& source,
-                                                      const LoopClosureConfig& config);
+                                                      const CandidateConfig& config);
 
 }  // namespace fleetmap::loop_closure

@@ -7,17 +7,17 @@
 
 #include "descriptor_candidates.hpp"
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
 
 namespace fleetmap::loop_closure {
 
 /// Candidates between this session and earlier ones of the same robot, whose odometry frames lie anywhere to
-/// each other: by position where both nodes have a G with sigma up to LoopClosureConfig::max_sigma_m, else by
+/// each other: by position where both nodes have a G with sigma up to CandidateConfig::max_sigma_m, else by
 /// descriptor, until the session is joined.
 class SessionCandidates {
  public:
-  explicit SessionCandidates(const LoopClosureConfig& config) : config_(config) {}
+  explicit SessionCandidates(const CandidateConfig& config) : config_(config) {}
 
   /// A session begins after those of the nodes in `earlier`; these must stay where they are.
   void begin(const std::vector<const graph::Node*>& earlier);
@@ -38,7 +38,7 @@ class SessionCandidates {
   std::optional<LoopCandidate> nearest(const graph::Node& node) const;
   std::optional<LoopCandidate> best_match(const graph::Node& node);
 
-  LoopClosureConfig config_;
+  CandidateConfig config_;
   std::map<std::uint16_t, Session> earlier_;
 };
 

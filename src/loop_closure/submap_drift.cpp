@@ -1,6 +1,6 @@
 #include "fleetmap/loop_closure/submap_drift.hpp"
 
-#include "pass_around.hpp"
+#include "path_segment.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
@@ -17,7 +17,7 @@ Matrix6d usual_covariance(double metres) {
 registration::MapDrift drift_around(const store::Store& store, const graph::Node& node, double reach) {
   registration::MapDrift drift;
   const graph::Node* previous = nullptr;
-  for (const graph::Node* next : pass_around(store, node, reach)) {
+  for (const graph::Node* next : path_segment_around(store, node, reach)) {
     registration::MapStop stop{node.T_odom_base.inverse() * next->T_odom_base, next->odom_covariance};
     if (previous != nullptr && previous->id.seq + 1 != next->id.seq) {
       const Pose T_previous_next = previous->T_odom_base.inverse() * next->T_odom_base;

@@ -43,9 +43,9 @@ HttpResponse refused(ServerState& state, unsigned status, std::string_view text)
           .body = std::string(text) + '\n'};
 }
 
-/// Refusal of a Foxglove client, which cannot send headers: its token is in its address. Who has the token
-/// has been given it, so the site that the client is from does not matter then: a browser attaches a cookie
-/// to the requests of any site, but puts no token into their addresses.
+/// Refusal of a Foxglove client, which cannot send headers: its token is in its address. The site
+/// of a client with the token does not matter, since a browser attaches a cookie to the requests of any site,
+/// but puts no token into their addresses.
 std::optional<std::string_view> foxglove_refusal(const ServerState& state, const RequestHead& head,
                                                  std::string_view target) {
   const std::string& token = state.config.token;

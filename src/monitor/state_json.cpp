@@ -169,7 +169,8 @@ json robots_json(const FleetView& view) {
           C != view.placement.covariance.end())
         robot["sigma_m"] = rounded(horizontal_sigma(C->second), 1e4);
     }
-    if (const auto credit = view.placement.credits.find(id); credit != view.placement.credits.end()) {
+    if (const auto credit = view.placement.alignment_stats.find(id);
+        credit != view.placement.alignment_stats.end()) {
       robot["alignments_used"] = credit->second.used;
       robot["alignments_rejected"] = credit->second.rejected;
       robot["quarantined"] = credit->second.quarantined;

@@ -17,7 +17,7 @@ constexpr float kMinRange = 0.5f;  // m
 constexpr double kMaxScatter = 0.2;
 constexpr double kMaxBeyond = 0.1;    // share of the points above and below all rings
 constexpr double kAgainst = 0.8;      // share of the pairs of points
-constexpr double kAgainstAll = 0.98;  // the same, where no rotation tells more
+constexpr double kAgainstAll = 0.98;  // the same, if no rotation gives better evidence
 constexpr std::size_t kPairs = 2000;  // of points, whose times are compared
 
 constexpr const char* kBackwards =

@@ -28,6 +28,6 @@ Matrix6d MotionCovariance::since_reference() const {
   return 0.5 * (sum + sum.transpose());
 }
 
-Matrix6d MotionCovariance::lost_since_reference() const { return 0.5 * (growth_ + growth_.transpose()); }
+Matrix6d MotionCovariance::drift_since_reference() const { return 0.5 * (growth_ + growth_.transpose()); }
 
 }  // namespace fleetmap::odometry

@@ -58,7 +58,7 @@ class MotionPrior {
 
   /// Mean angular rate of base_link during the sweep, rad/s, bias removed.
   void set_gyro_rate(const Eigen::Vector3d& rate, double sigma);
-  /// A gyro anchors the turn rate, so that the map cannot be bent by more of it than the gyro errs.
+  /// A gyro anchors the turn rate, so that the map cannot be distorted by more of it than the gyro errs.
   bool has_gyro_rate() const { return has_gyro_rate_; }
   bool has_forward_speed() const { return has_forward_speed_; }
   bool has_yaw_rate() const { return has_yaw_rate_; }

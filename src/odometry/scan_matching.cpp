@@ -16,16 +16,19 @@ constexpr double kStepTranslation = 5e-4;  // m, a smaller step ends the iterati
 constexpr double kStepRotation = 2e-5;     // rad
 constexpr double kAnnealing = 0.4;         // shrinkage of the kernel's slack in each iteration
 constexpr double kFinalSlack = 0.02;       // m
-/// While the slack shrinks, every so many features will do as leave this many plane points.
+/// Plane points that are used while the slack shrinks: a subset suffices until the last iteration.
 constexpr std::size_t kEnoughPlanes = 600;
 constexpr std::size_t kLongestStride = 4;
-/// Distances as large as assumed that the a posteriori variance begins with: a few cannot be sure of it.
+/// Pseudo-observations of the assumed variance in the a posteriori variance, which a few distances alone
+/// would estimate badly.
 constexpr double kAssumedDistances = 10.0;
-/// A direction is degenerate if its information is within this factor of what noisy normals feign ...
+/// A direction is degenerate if its information is within this factor of the spurious information of noisy
+/// normals ...
 constexpr double kSpuriousFactor = 6.0;
 /// ... or below this share of a direction that all surfaces face.
 constexpr double kMinShare = 5e-5;
-/// Within this factor noisy normals can still be most of what constrains a direction: it is weak.
+/// A direction is weak if its information is within this factor, because noisy normals may be the larger part
+/// of it.
 constexpr double kWeakFactor = 40.0;
 constexpr double kLevel = 0.7;             // upward part of the normal of what lies level, at least
 constexpr std::size_t kFeatureBlock = 16;  // features whose windows are fetched together
@@ -35,17 +38,17 @@ double longest_time(const std::vector<FeaturePoint>& points, double longest) {
   return longest;
 }
 
-/// Information of the points if the map may be bent within every sweep by a velocity e of these standard
+/// Information of the points if the map may be distorted within every sweep by a velocity e of these standard
 /// deviations (m/s, rad/s): a point fired at s moves with d_pose + s (d_twist + e), and e is marginalised.
-/// Otherwise the velocity would be measured against the map's own bend, which has no anchor, and both would
-/// drift away from the motion between the poses.
-NormalEquations with_bent_map(const NormalEquations& points, double speed, double turn_rate) {
+/// Otherwise the velocity would be measured against the map's own distortion, which has no anchor, and both
+/// would drift away from the motion between the poses.
+NormalEquations with_distorted_map(const NormalEquations& points, double speed, double turn_rate) {
   Vector6d known;
   known << Eigen::Vector3d::Constant(1.0 / square(speed)), Eigen::Vector3d::Constant(1.0 / square(turn_rate));
   const Eigen::Matrix<double, 12, 6> coupling = points.H.rightCols<6>();
-  Matrix6d of_bend = points.H.bottomRightCorner<6, 6>();
-  of_bend.diagonal() += known;
-  const Eigen::LDLT<Matrix6d> factor(of_bend);
+  Matrix6d of_distortion = points.H.bottomRightCorner<6, 6>();
+  of_distortion.diagonal() += known;
+  const Eigen::LDLT<Matrix6d> factor(of_distortion);
   NormalEquations result;
   result.H = points.H - coupling * factor.solve(coupling.transpose());
   result.H = (0.5 * (result.H + result.H.transpose())).eval();
@@ -80,7 +83,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   lookups_.assign(planes.size(), {});
   const std::size_t some = std::clamp<std::size_t>(planes.size() / kEnoughPlanes, 1, kLongestStride);
   half_span_ = longest_time(edges, longest_time(planes, 1e-6));
-  const double bend_turn_rate = prior.has_gyro_rate() ? config_.gyro_noise : config_.map_bend_turn_rate;
+  const double distortion_turn_rate =
+      prior.has_gyro_rate() ? config_.gyro_noise : config_.map_distortion_turn_rate;
   double slack = initial_error;
   for (result.iterations = 1; result.iterations <= config_.max_iterations; ++result.iterations) {
     const bool last = slack <= kFinalSlack || result.iterations == config_.max_iterations;
@@ -89,7 +93,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     find_degeneracy(lidar.H, result);
     lidar.H /= config_.information_deflation;
     lidar.g /= config_.information_deflation;
-    lidar = with_bent_map(lidar, config_.map_bend_speed, bend_turn_rate);
+    lidar = with_distorted_map(lidar, config_.map_distortion_speed, distortion_turn_rate);
     const NormalEquations known = prior.linearised(result.state);
     if (result.degenerate_count > 0) remove_degenerate(result, lidar);
     const Vector12d step = -(lidar.H + known.H).ldlt().solve(lidar.g + known.g);

@@ -31,12 +31,12 @@ constexpr std::size_t kCorners = 8;
 
 }  // namespace
 
-SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend)
+SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness, double unevenness)
     : step_(step),
       inverse_step_(1.0 / step),
       seeks_(seeks),
       max_thickness_(max_thickness),
-      bend2_(bend * bend) {}
+      unevenness2_(unevenness * unevenness) {}
 
 inline void SurfaceGrid::take(Window& window, const Eigen::Vector3f& from_middle,
                               const Eigen::Vector3f& toward) {
@@ -178,7 +178,7 @@ void SurfaceGrid::fit(const Window& window, CellKey cell, Surface& surface) cons
   auto set_shape = [&](Shape shape, int axis, double across, double along) {
     surface.shape = shape;
     surface.direction = solver.eigenvectors().col(axis).cast<float>();
-    surface.thickness = static_cast<float>(across + bend2_);
+    surface.thickness = static_cast<float>(across + unevenness2_);
     surface.angle_variance = static_cast<float>(across / (n * along));
   };
   if (seeks_ == Seeks::kPlanes) {

@@ -198,7 +198,7 @@ void SweepBuilder::sort_by_ring(const sensor::Scan& scan) {
   }
 }
 
-/// Without times the azimuth tells when a point was fired: the sensor turns at a constant rate.
+/// Without times of points the azimuth gives the time of firing, since the sensor turns at a constant rate.
 void SweepBuilder::times_from_azimuth(const sensor::Scan& scan) {
   if (sweep_.rings() == 0) return;
   float start = 0.0f;

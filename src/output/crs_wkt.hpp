@@ -13,7 +13,7 @@ namespace fleetmap::output {
 /// does. EPSG's vertical system is named where the geoid has one (EGM84, EGM96, EGM2008).
 std::string utm_wkt(const UtmZone& zone, const std::optional<std::string>& geoid);
 
-/// The east-north-up frame at `origin`; without one a local frame of which nobody knows the place.
+/// The east-north-up frame at `origin`; without one a local frame at an unknown place.
 std::string local_wkt(const std::optional<GeoPoint>& origin);
 
 /// "39.000000000, -3.000000000 deg, 600.000 m above the WGS 84 ellipsoid"

@@ -24,12 +24,12 @@ std::string degrees(double radians) {
 
 }  // namespace
 
-Result<CrsChoice> parse_crs(std::string_view text) {
+Result<CrsRequest> parse_crs(std::string_view text) {
   std::string lower(text);
   std::ranges::transform(lower, lower.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (lower == "utm") return CrsChoice{};
-  if (lower == "enu") return CrsChoice{CrsChoice::Kind::enu, {}};
+  if (lower == "utm") return CrsRequest{};
+  if (lower == "enu") return CrsRequest{CrsRequest::Kind::enu, {}};
   const std::string prefix = "epsg:";
   int code = 0;
   const char* end = lower.data() + lower.size();
@@ -42,11 +42,11 @@ Result<CrsChoice> parse_crs(std::string_view text) {
     return failure(std::string(text) + " cannot be written; " + kOffered +
                    ". A surveyor's program changes the file to other systems, with their grids");
   }
-  return CrsChoice{CrsChoice::Kind::zone, *zone};
+  return CrsRequest{CrsRequest::Kind::zone, *zone};
 }
 
-Result<MapCrs> MapCrs::of(const CrsChoice& choice, const MapPlace& place, std::optional<Geoid> geoid) {
-  if (choice.kind == CrsChoice::Kind::enu) {
+Result<MapCrs> MapCrs::of(const CrsRequest& request, const MapPlace& place, std::optional<Geoid> geoid) {
+  if (request.kind == CrsRequest::Kind::enu) {
     if (geoid)
       return failure("heights in enu are above a plane at the origin, not above a geoid: no --geoid");
     return MapCrs(place, std::nullopt, std::nullopt);
@@ -61,7 +61,7 @@ Result<MapCrs> MapCrs::of(const CrsChoice& choice, const MapPlace& place, std::o
     return failure("its origin has latitude " + degrees(place.origin.latitude) +
                    " deg, where UTM ends; --crs enu writes the map in its own frame");
   }
-  const UtmZone zone = choice.kind == CrsChoice::Kind::zone ? choice.zone : *own;
+  const UtmZone zone = request.kind == CrsRequest::Kind::zone ? request.zone : *own;
   const auto origin = to_utm(place.origin, zone);
   if (!origin) {
     return failure(epsg_name(zone) + " is the zone around longitude " +

@@ -5,7 +5,7 @@
 namespace fleetmap::recording {
 namespace {
 
-constexpr std::size_t kLeastHeader = 20, kMaxData = 65'535, kMaxWaiting = 32;
+constexpr std::size_t kMinHeader = 20, kMaxData = 65'535, kMaxWaiting = 32;
 constexpr std::uint64_t kMaxLater = 4096;  // fragments; the numbers of packets recur after 65,536 packets
 constexpr std::size_t kMaxParts = 256;     // of the usual 1480 bytes 45 make the longest packet
 constexpr std::uint16_t kMoreFragments = 0x2000, kOffsetMask = 0x1fff;
@@ -29,10 +29,10 @@ bool IpFragments::Waiting::complete() const {
 }
 
 std::optional<Bytes> IpFragments::add(ByteView packet) {
-  if (packet.size() < kLeastHeader) return std::nullopt;
+  if (packet.size() < kMinHeader) return std::nullopt;
   const std::size_t header = std::size_t{packet[0] & 0xfu} * 4;
   const std::size_t total = big_endian(packet, 2, 2);
-  if (header < kLeastHeader || total <= header) return std::nullopt;
+  if (header < kMinHeader || total <= header) return std::nullopt;
   if (total > packet.size()) {
     ++discarded_;  // the capture holds a part of it
     return std::nullopt;

@@ -246,7 +246,7 @@ Status read_stamps(const Layout& layout, KittiReader::Files& files) {
 }
 
 /// Logs assumptions that replace missing files.
-void say_what_is_assumed(const Layout& layout, const KittiReader::Files& files, const KittiConfig& config) {
+void log_assumptions(const Layout& layout, const KittiReader::Files& files, const KittiConfig& config) {
   const std::string where = layout.scans.string();
   if (files.scan_stamps.empty()) {
     spdlog::warn(
@@ -280,7 +280,7 @@ Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConf
                    " has no scan (.bin, .pcd, or either with .xz) among the frames asked for");
   }
   if (auto status = read_stamps(layout, files); !status) return tl::unexpected(status.error());
-  say_what_is_assumed(layout, files, config);
+  log_assumptions(layout, files, config);
   return std::make_unique<KittiReader>(path.string(), std::move(files), config);
 }
 

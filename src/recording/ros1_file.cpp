@@ -107,7 +107,7 @@ Status Ros1File::index() {
   return {};
 }
 
-/// No bytes, which no message decodes from, if the message is damaged or of a type that nobody asks for.
+/// Returns no bytes, from which no message decodes, if the message is damaged or of a type that is not read.
 ByteView Ros1File::cdr_of(const BagTopic& topic, ByteView data) {
   auto cdr = ros_codec::cdr_from_ros1(topic.type, data);
   cdr_ = cdr ? std::move(*cdr) : Bytes();

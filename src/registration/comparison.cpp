@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMinPatchPoints = 3;
 
-bool was_observed(const FlatMap& map, const Eigen::Vector3f& p) {
+bool was_observed(const CorrelationGrid& map, const Eigen::Vector3f& p) {
   const Eigen::Vector2f g = (p.head<2>() - map.origin) / (map.cell_m * static_cast<float>(kObservedCells));
   if (!(g.x() >= 0.0f && g.y() >= 0.0f)) return false;
   const int x = static_cast<int>(g.x()), y = static_cast<int>(g.y());
@@ -23,8 +23,8 @@ struct PointFit {
   float squared = 0.0f;  ///< m^2, distance from it in the directions that it constrains
 };
 
-PointFit fit_of(const Surfel* surfel, const FlatMap& flat, const Eigen::Vector3f& p, const Facing& own,
-                const Eigen::Matrix3f& R, const RegistrationConfig& config) {
+PointFit fit_of(const Surfel* surfel, const CorrelationGrid& flat, const Eigen::Vector3f& p,
+                const Facing& own, const Eigen::Matrix3f& R, const RegistrationConfig& config) {
   PointFit fit;
   if (surfel == nullptr) {
     fit.observed = was_observed(flat, p);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flat_search.hpp"
+#include "correlative_search.hpp"
 
 namespace fleetmap::registration {
 namespace {
@@ -13,7 +13,7 @@ constexpr double kContenderWeight = 1e-9;
 
 /// The prior of levelled frames.
 struct Window {
-  FlatWindow search;
+  CorrelationWindow search;
   std::optional<Prior> prior;
 };
 
@@ -69,7 +69,7 @@ std::vector<Candidate> candidates_of(const PreparedCloud::Data& target, const Pr
   icp.far_stages = 1;
   icp.iterations_per_stage = 3;
   std::vector<Candidate> all;
-  for (const FlatCandidate& found : flat_search(target.flat, source.flat, window.search)) {
+  for (const CorrelationCandidate& found : correlative_search(target.flat, source.flat, window.search)) {
     const Eigen::Vector3f tilt(found.slope.y(), -found.slope.x(), 0.0f);
     const Pose T_start =
         make_pose(so3_exp(tilt.cast<double>()) * rotation_from_rpy(0.0, 0.0, static_cast<double>(found.yaw)),
@@ -152,12 +152,12 @@ std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const Prepared
   return modes;
 }
 
-/// Aligns anew what both sensors saw from the same side, once it is known which pose is meant. What would
-/// leave the prior stays as it was.
+/// Refines a mode with the surfaces alone that both sensors observed from the same side. A result that the
+/// prior contradicts is dropped, and the mode stays as it was.
 void refine(const PreparedCloud::Data& target, const MovingPoints& points, const IcpConfig& fine,
             const DriftModels& drift_models, const Window& window, double prior_sigmas, FoundMode& mode) {
   IcpConfig icp = fine;
-  icp.sides = Sides::of_sensors;
+  icp.side_test = SideTest::sensor_positions;
   icp.iterations_per_stage = 12;
   const IcpResult refined = align(target.surfels, points, mode.T_level, icp, &drift_models);
   if (!refined.converged) return;

@@ -77,9 +77,9 @@ PreparedCloud::PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector
   SurfelConfig surfels;
   surfels.voxel_m = config.surfel_m;
   data->surfels = SurfelMap(points, surfels);
-  FlatConfig flat;
+  CorrelationGridConfig flat;
   flat.cell_m = config.cell_m;
-  data->flat = flat_map(points, flat);
+  data->flat = correlation_grid(points, flat);
   data->all = moving(points, data->surfels, data->flat.floor, config);
   data->fine = picked(data->all, config.fine_points);
   data->middle = picked(data->all, (config.coarse_points + config.fine_points) / 3);

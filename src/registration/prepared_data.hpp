@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flat_map.hpp"
+#include "correlation_grid.hpp"
 #include "fleetmap/registration/prepared_cloud.hpp"
 #include "paper_registration.hpp"
 #include "surfel_icp.hpp"
@@ -14,7 +14,7 @@ struct PreparedCloud::Data {
   FeatureCloud features;  ///< of method `paper`, in the cloud's own frame
   Eigen::Matrix3d R_level_cloud = Eigen::Matrix3d::Identity();
   SurfelMap surfels;
-  FlatMap flat;
+  CorrelationGrid flat;
   /// m, root mean square distance of the points from the surfels of their own cloud: noise, rounding,
   /// roughness.
   double noise_m = 0.0;

@@ -133,10 +133,10 @@ System linearize(const SurfelMap& target, const MovingPoints& source, const Pose
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = from + k;
       if (surfels[k] == nullptr) continue;
-      const bool by_normals = !far && config.sides == Sides::of_normals;
+      const bool by_normals = !far && config.side_test == SideTest::surface_normals;
       if (!source.facing.empty() && !agree(*surfels[k], source.facing[i], R, by_normals, config)) continue;
       const std::size_t directions =
-          !far && config.sides == Sides::of_sensors
+          !far && config.side_test == SideTest::sensor_positions
               ? directions_for(*surfels[k], R * sensor_beside(source.points[i]) + t)
               : surfels[k]->directions;
       if (!rows.has_room()) rows.move_into(system);

@@ -28,7 +28,7 @@ struct MovingPoints {
   float patch_m = 4.0f;                   ///< m, edge of one
 };
 
-/// Models of the drift of the odometry, which bends both clouds.
+/// Models of the drift of the odometry, which deforms both clouds.
 struct DriftModels {
   DriftModel target, source;
 };
@@ -39,13 +39,14 @@ struct IcpResult {
   int iterations = 0;
   int unconstrained = 0;  ///< directions (of 6) that nothing constrains, as at the end
   /// Covariance of T_target_source, right tangent: [m, rad]. Residuals of one patch of ground may share an
-  /// error, those of different patches do not (cluster-robust sandwich estimator); the drift of both maps is
-  /// added. Large, but finite, along directions that the scene does not constrain.
+  /// error, those of different patches do not (cluster-robust sandwich estimator, Liang and Zeger 1986); the
+  /// drift of both maps is added. Large, but finite, along directions that the scene does not constrain.
   Matrix6d covariance = Matrix6d::Identity();
 };
 
-/// Point-to-surfel ICP from `T_initial`: Gauss-Newton on SE(3), T <- T exp(xi), Geman-McClure weights. With
-/// a covariance if `drift_models` are present.
+/// Point-to-surfel ICP from `T_initial`: Gauss-Newton on SE(3), T <- T exp(xi), on point-to-plane distances
+/// (Chen and Medioni 1992) with weights of Geman and McClure (1985). With a covariance if `drift_models` are
+/// present.
 IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose& T_initial,
                 const IcpConfig& config, const DriftModels* drift_models = nullptr);
 

@@ -79,12 +79,12 @@ Bytes encode_livox(const sensor::Scan& scan, std::string_view frame_id) {
   out.point_num(static_cast<std::uint32_t>(scan.points.size()));
   out.points().reserve(scan.points.size());
   for (const sensor::ScanPoint& point : scan.points) {
-    constexpr float kMostNanoseconds = 4.29e9f;
+    constexpr float kMaxNanoseconds = 4.29e9f;
     CustomPoint_ one;
     one.x(point.position.x());
     one.y(point.position.y());
     one.z(point.position.z());
-    one.offset_time(static_cast<std::uint32_t>(std::clamp(point.time * 1e9f, 0.0f, kMostNanoseconds)));
+    one.offset_time(static_cast<std::uint32_t>(std::clamp(point.time * 1e9f, 0.0f, kMaxNanoseconds)));
     one.reflectivity(static_cast<std::uint8_t>(std::clamp(point.intensity, 0.0f, 255.0f)));
     one.line(static_cast<std::uint8_t>(std::min<std::uint16_t>(point.ring, 255)));
     out.points().push_back(one);

@@ -29,11 +29,11 @@ Bytes encode(const PoseMsg& pose) {
 
 Bytes encode(const PathMsg& path) {
   nav_msgs::msg::dds_::Path_ out;
-  out.header(header(path.places.empty() ? Stamp{} : path.places.back().stamp, path.frame));
-  for (const PathMsg::Place& place : path.places) {
+  out.header(header(path.poses.empty() ? Stamp{} : path.poses.back().stamp, path.frame));
+  for (const PathMsg::StampedPose& pose : path.poses) {
     geometry_msgs::msg::dds_::PoseStamped_& one = out.poses().emplace_back();
-    one.header(header(place.stamp, path.frame));
-    one.pose(to_ros(place.T_frame_base));
+    one.header(header(pose.stamp, path.frame));
+    one.pose(to_ros(pose.T_frame_base));
   }
   return bus::to_cdr(out);
 }

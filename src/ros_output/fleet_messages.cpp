@@ -74,9 +74,9 @@ ros_codec::PathMsg path_message(const monitor::FleetView& view) {
   for (const graph::Node& node : view.nodes) {
     const auto placed = view.placement.T_enu_node.find(node.id);
     if (node.id.agent == view.self && placed != view.placement.T_enu_node.end())
-      path.places.push_back({node.stamp, placed->second});
+      path.poses.push_back({node.stamp, placed->second});
   }
-  std::ranges::stable_sort(path.places, {}, &ros_codec::PathMsg::Place::stamp);
+  std::ranges::stable_sort(path.poses, {}, &ros_codec::PathMsg::StampedPose::stamp);
   return path;
 }
 

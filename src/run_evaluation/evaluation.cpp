@@ -8,10 +8,10 @@
 #include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
-#include "held_fleet.hpp"
 #include "map_evaluation.hpp"
 #include "mode_evaluation.hpp"
 #include "run_folder.hpp"
+#include "stored_fleet.hpp"
 #include "truth_cloud.hpp"
 
 namespace fleetmap::run_evaluation {
@@ -141,10 +141,11 @@ json cpu_json(const RunFolder& run) {
   return cpu;
 }
 
-/// The contents of a robot that has the map that most share; none, with a note, if no store is readable.
-std::optional<HeldFleet> most_common_fleet(RunFolder& run, const std::vector<DistinctMap>& maps) {
+/// The contents of a robot whose map more robots share than any other; none, with a note, if its store is
+/// not readable.
+std::optional<StoredFleet> fleet_of_largest_group(RunFolder& run, const std::vector<DistinctMap>& maps) {
   if (maps.empty()) return std::nullopt;
-  auto held = open_held(maps.front().file.parent_path() / "store.db");
+  auto held = open_stored(maps.front().file.parent_path() / "store.db");
   if (held) return std::move(*held);
   run.notes.push_back(held.error().message + "; alignments are not evaluated, robots not told apart");
   return std::nullopt;
@@ -191,7 +192,7 @@ Result<json> evaluated(const fs::path& directory, const EvaluationInputs& inputs
   evaluation["agents"] = agents_json(*run);
   evaluation["pairs"] = pairs_json(*run);
   const std::vector<DistinctMap> distinct = distinct_maps(*run);
-  std::optional<HeldFleet> held = most_common_fleet(*run, distinct);
+  std::optional<StoredFleet> held = fleet_of_largest_group(*run, distinct);
   const eval::TruePoses nodes = held ? true_poses(*run, held->store) : eval::TruePoses{};
   if (json fleet = fleet_json(*run, held ? &*held : nullptr, nodes); !fleet.is_null())
     evaluation["fleet"] = fleet;

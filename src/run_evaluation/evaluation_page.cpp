@@ -78,7 +78,7 @@ void add_fleet(eval::HtmlPage& page, const json& fleet) {
   rows.push_back(
       {"joint ATE: after one rigid transform of the whole fleet", text(fleet, "ate_joint") + " m"});
   rows.push_back({"of it between robots", text(fleet, "between_robots") + " m"});
-  rows.push_back({"of it bends of each robot's own track", text(fleet, "bend") + " m"});
+  rows.push_back({"of it within robots (distortion of each track)", text(fleet, "bend") + " m"});
   rows.push_back({"without any transform", text(fleet, "ate_unaligned") + " m"});
   rows.push_back({"of it the whole fleet's place on Earth", text(fleet, "georeference") + " m"});
   rows.push_back({"where robots see each other", text(fleet, "inter_robot_translation") + " m, " +
@@ -119,7 +119,7 @@ void add_modes(eval::HtmlPage& page, const json& modes) {
   row("pairs of robots joined wrongly", "fleet", "wrong_merges");
   row("joint ATE [m]", "fleet", "ate_joint");
   row("of it between robots [m]", "fleet", "between_robots");
-  row("of it bends [m]", "fleet", "bend");
+  row("of it within robots [m]", "fleet", "bend");
   row("where robots see each other [m]", "fleet", "inter_robot_translation");
   row("map RMSE [m]", "map", "rmse");
   rows.push_back({"F1 at 5 / 10 cm where two robots were"});

@@ -31,7 +31,7 @@ void print_fleet(std::ostream& out, const json& evaluation) {
   if (evaluation.contains("fleet")) {
     const auto& fleet = evaluation["fleet"];
     out << "fleet: joint ATE " << fleet["ate_joint"].get<double>() << " m (between robots "
-        << fleet["between_robots"].get<double>() << ", bends " << fleet["bend"].get<double>()
+        << fleet["between_robots"].get<double>() << ", within robots " << fleet["bend"].get<double>()
         << "), unaligned " << fleet["ate_unaligned"].get<double>() << " m\n";
   }
 }

@@ -127,7 +127,7 @@ eval::TruePoses true_poses(const RunFolder& run, const store::Store& store) {
   return poses;
 }
 
-json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth) {
+json alignments_json(const RunFolder& run, const StoredFleet& held, const eval::TruePoses& truth) {
   const auto errors = eval::alignment_errors(held.alignments, held.placement, truth);
   std::vector<eval::AlignmentError> right, used;
   std::vector<eval::StatedError> stated;
@@ -163,7 +163,7 @@ json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::Tr
   return result;
 }
 
-json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePoses& truth) {
+json fleet_json(const RunFolder& run, const StoredFleet* held, const eval::TruePoses& truth) {
   std::vector<eval::Track> tracks;
   double squares = 0.0, turns = 0.0;
   std::size_t meetings = 0;
@@ -187,7 +187,7 @@ json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePos
                 {"ate_unaligned", joint->unaligned},
                 {"georeference", joint->georeference},
                 {"between_robots", joint->between_robots},
-                {"bend", joint->bend}};
+                {"bend", joint->within_robots}};
   if (meetings > 0) {
     fleet["inter_robot_translation"] = std::sqrt(squares / static_cast<double>(meetings));
     fleet["inter_robot_rotation_deg"] = kDegrees * std::sqrt(turns / static_cast<double>(meetings));
@@ -201,7 +201,7 @@ json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePos
   return fleet;
 }
 
-json calibration_json(RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth) {
+json calibration_json(RunFolder& run, const StoredFleet& held, const eval::TruePoses& truth) {
   json result = json::object();
   if (json ekf = filter_json(run, LocalFrame(held.recipe.origin)); !ekf.is_null()) result["ekf"] = ekf;
   const auto odometry = eval::odometry_errors(output::nodes_of(held.store), truth);

@@ -59,7 +59,7 @@ json map_json(const eval::EvaluatedMap& evaluated, const eval::MapMetricsConfig&
 
 }  // namespace
 
-Status MapEvaluation::add_to(json& evaluation, const std::vector<DistinctMap>& maps, HeldFleet* held) {
+Status MapEvaluation::add_to(json& evaluation, const std::vector<DistinctMap>& maps, StoredFleet* held) {
   for (std::size_t k = 0; k < maps.size(); ++k) {
     const auto read = cloud::read_thinned_cloud(maps[k].file, inputs_.max_map_points);
     if (!read) return tl::unexpected(read.error());
@@ -81,11 +81,11 @@ Status MapEvaluation::add_to(json& evaluation, const std::vector<DistinctMap>& m
   return {};
 }
 
-json MapEvaluation::of_held(HeldFleet& held) {
+json MapEvaluation::of_held(StoredFleet& held) {
   return evaluate(map_with_sources(held).cloud, "the map of another placement", &held, false);
 }
 
-json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& name, HeldFleet* held,
+json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& name, StoredFleet* held,
                              bool draw) {
   if (draw) {
     draw_by_robot(map, thinned_ ? nullptr : held);
@@ -108,7 +108,7 @@ json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& na
   return result;
 }
 
-void MapEvaluation::draw_by_robot(const cloud::PointCloud& cloud, HeldFleet* held) {
+void MapEvaluation::draw_by_robot(const cloud::PointCloud& cloud, StoredFleet* held) {
   store::MergedMap merged;
   if (held != nullptr) {
     merged = map_with_sources(*held);

@@ -8,9 +8,9 @@
 #include "fleetmap/eval/alignment_errors.hpp"
 #include "fleetmap/run_evaluation/evaluation_inputs.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
-#include "held_fleet.hpp"
 #include "overlap_evaluation.hpp"
 #include "run_folder.hpp"
+#include "stored_fleet.hpp"
 
 namespace fleetmap::run_evaluation {
 
@@ -23,9 +23,9 @@ class MapEvaluation {
       : inputs_(inputs), truth_(std::move(truth)), nodes_(nodes) {}
 
   /// "map" (of the map that most robots hold) and, where they differ, "maps".
-  Status add_to(nlohmann::json& evaluation, const std::vector<DistinctMap>& maps, HeldFleet* held);
-  /// The map of what is held as it is placed now, without pictures. Of one `held` only.
-  nlohmann::json of_held(HeldFleet& held);
+  Status add_to(nlohmann::json& evaluation, const std::vector<DistinctMap>& maps, StoredFleet* held);
+  /// The map of what is held as it is placed now, without pictures. Call it with one `held` only.
+  nlohmann::json of_held(StoredFleet& held);
 
   /// A map had more points than EvaluationInputs::max_map_points.
   bool thinned() const { return thinned_; }
@@ -34,8 +34,9 @@ class MapEvaluation {
   std::vector<std::string> notes;
 
  private:
-  nlohmann::json evaluate(const cloud::PointCloud& map, const std::string& name, HeldFleet* held, bool draw);
-  void draw_by_robot(const cloud::PointCloud& cloud, HeldFleet* held);
+  nlohmann::json evaluate(const cloud::PointCloud& map, const std::string& name, StoredFleet* held,
+                          bool draw);
+  void draw_by_robot(const cloud::PointCloud& cloud, StoredFleet* held);
   void keep(Result<MapPicture> picture);
 
   const EvaluationInputs& inputs_;

@@ -20,7 +20,7 @@ using nlohmann::json;
 constexpr std::size_t kCovariances = 60;  ///< of as many nodes, evenly chosen
 
 /// The nodes and alignments held, as `method` places them.
-graph::Placement placed(const HeldFleet& held, graph::PlacementMethod method,
+graph::Placement placed(const StoredFleet& held, graph::PlacementMethod method,
                         std::span<const NodeId> covariance_of) {
   graph::PlacementConfig config = held.recipe.placement;
   config.method = method;
@@ -65,7 +65,7 @@ void append_session(const output::Trajectory& odometry, const std::vector<Anchor
   }
 }
 
-std::optional<output::Trajectory> trajectory_of(const AgentFolder& agent, const HeldFleet& held) {
+std::optional<output::Trajectory> trajectory_of(const AgentFolder& agent, const StoredFleet& held) {
   const graph::Placement& placement = held.placement;
   const auto begun = store::Sessions::load(held.store);
   if (!begun) return std::nullopt;
@@ -114,7 +114,7 @@ std::vector<eval::StatedError> placement_errors(const graph::Placement& placemen
 }
 
 /// Evaluates `held` as its alignments and placement are now.
-json combination_json(const RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes,
+json combination_json(const RunFolder& run, StoredFleet& held, const eval::TruePoses& nodes,
                       MapEvaluation& maps) {
   RunFolder placed = run;
   for (AgentFolder& agent : placed.agents) agent.trajectory = trajectory_of(agent, held);
@@ -143,7 +143,7 @@ json replay_json(const ReplayedRegistrations& replayed) {
 
 }  // namespace
 
-json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
+json modes_json(RunFolder& run, StoredFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
                 const json& evaluation, const EvaluationInputs& inputs) {
   if (nodes.empty() || inputs.modes.empty()) return nullptr;
   const RegistrationLogs logs = read_registration_logs(run);

@@ -13,7 +13,8 @@ namespace fleetmap::run_evaluation {
 /// alignments and the NEES of placed nodes. Where that is how the run was made, `evaluation` is copied.
 /// Combinations whose registrations were not logged are left out, with a note. Only those named in
 /// `inputs.modes` are made. Null without truth.
-nlohmann::json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
-                          const nlohmann::json& evaluation, const EvaluationInputs& inputs);
+nlohmann::json modes_json(RunFolder& run, StoredFleet& held, const eval::TruePoses& nodes,
+                          MapEvaluation& maps, const nlohmann::json& evaluation,
+                          const EvaluationInputs& inputs);
 
 }  // namespace fleetmap::run_evaluation

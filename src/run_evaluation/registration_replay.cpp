@@ -52,7 +52,7 @@ registration::Prior prior_of(const store::LoggedPrior& logged) {
 /// Registers what one agent logged. A node's cloud is prepared once for all its partners.
 class Replay {
  public:
-  Replay(const HeldFleet& held, registration::Method method, ReplayedRegistrations& result)
+  Replay(const StoredFleet& held, registration::Method method, ReplayedRegistrations& result)
       : held_(held), result_(result) {
     config_.method = method;
   }
@@ -110,7 +110,7 @@ class Replay {
     }
   }
 
-  const HeldFleet& held_;
+  const StoredFleet& held_;
   ReplayedRegistrations& result_;
   registration::RegistrationConfig config_;
   std::size_t without_nodes_ = 0;
@@ -130,7 +130,7 @@ RegistrationLogs read_registration_logs(const RunFolder& run) {
   return logs;
 }
 
-ReplayedRegistrations register_again(const RegistrationLogs& logs, const HeldFleet& held,
+ReplayedRegistrations register_again(const RegistrationLogs& logs, const StoredFleet& held,
                                      registration::Method method) {
   ReplayedRegistrations result;
   result.notes = logs.notes;

@@ -8,8 +8,8 @@
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/store/registration_log.hpp"
-#include "held_fleet.hpp"
 #include "run_folder.hpp"
+#include "stored_fleet.hpp"
 
 namespace fleetmap::run_evaluation {
 
@@ -32,7 +32,7 @@ RegistrationLogs read_registration_logs(const RunFolder& run);
 
 /// Registers the logged pairs of nodes once more by `method`: the same clouds and, if the method uses it, the
 /// same prior. `held` gives the nodes. The settings are the method's defaults.
-ReplayedRegistrations register_again(const RegistrationLogs& logs, const HeldFleet& held,
+ReplayedRegistrations register_again(const RegistrationLogs& logs, const StoredFleet& held,
                                      registration::Method method);
 
 }  // namespace fleetmap::run_evaluation

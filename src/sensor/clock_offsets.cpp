@@ -79,7 +79,7 @@ std::size_t ClockOffsets::sharing(double lag) const {
 bool ClockOffsets::may_be_late(const Track& track) const {
   return std::ranges::any_of(tracks_, [&](const Track& other) {
     const double late = track.lag() - other.lag();
-    return other.begun && late > kWrong && late < LagEnvelope::kMaxLateness &&
+    return other.begun && late > kWrong && late < MinLagFilter::kMaxLateness &&
            sharing(other.lag()) >= sharing(track.lag());
   });
 }

@@ -7,7 +7,7 @@ namespace {
 
 /// Clocks of 50 ppm drift apart by 1.5 ms in that time.
 constexpr Duration kRoundTripsKept = std::chrono::seconds(30);
-/// An answer that took longer tells less than the lag of messages.
+/// An answer that took longer is less exact than the lag of messages.
 constexpr Duration kMaxRoundTrip = std::chrono::milliseconds(100);
 
 }  // namespace

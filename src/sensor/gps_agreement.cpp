@@ -15,7 +15,7 @@ constexpr double kUnknownSigma = 3.0;  // m
 constexpr double kMinJump = 10.0;      // m, more than its error changes from fix to fix
 constexpr double kSigmas = 5.0;
 constexpr double kSpacing = 2.0;  // m between places of the track
-constexpr std::size_t kFewest = 10, kMost = 100;
+constexpr std::size_t kMinTrack = 10, kMaxTrack = 100;
 constexpr double kCheckedEvery = 5.0;  // m
 constexpr double kMinMisfit = 3.0;     // m
 constexpr double kMisfitSigmas = 2.0;
@@ -59,7 +59,7 @@ Fit fit_of(const Eigen::Matrix2Xd& gps, const Eigen::Matrix2Xd& odom) {
 
 void GpsAgreement::interrupt() {
   last_.reset();
-  last_place_.reset();
+  last_matched_.reset();
   track_.clear();
   waiting_.clear();
 }
@@ -84,25 +84,25 @@ void GpsAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
 
 void GpsAgreement::match(const Fix& fix, const Eigen::Vector2d& odom) {
   if (!frame_) frame_.emplace(fix.position);
-  const Place place{frame_->to_enu(fix.position).head<2>(), odom, sigma_of(fix)};
-  check_jump(place);
-  last_place_ = place;
+  const MatchedFix matched{frame_->to_enu(fix.position).head<2>(), odom, sigma_of(fix)};
+  check_jump(matched);
+  last_matched_ = matched;
   const double step = track_.empty() ? kSpacing : (odom - track_.back().odom).norm();
   if (step < kSpacing) return;
-  track_.push_back(place);
-  if (track_.size() > kMost) track_.pop_front();
+  track_.push_back(matched);
+  if (track_.size() > kMaxTrack) track_.pop_front();
   driven_ += step;
-  if (driven_ < kCheckedEvery || track_.size() < kFewest) return;
+  if (driven_ < kCheckedEvery || track_.size() < kMinTrack) return;
   driven_ = 0.0;
   check_track();
 }
 
-void GpsAgreement::check_jump(const Place& place) {
-  if (!last_place_ || jump_said_) return;
-  const double moved = (place.odom - last_place_->odom).norm();
-  const double jump = (place.gps - last_place_->gps).norm() - moved;
-  if (jump < std::max(kMinJump, kSigmas * (place.sigma + last_place_->sigma))) return;
-  jump_said_ = true;
+void GpsAgreement::check_jump(const MatchedFix& matched) {
+  if (!last_matched_ || jump_reported_) return;
+  const double moved = (matched.odom - last_matched_->odom).norm();
+  const double jump = (matched.gps - last_matched_->gps).norm() - moved;
+  if (jump < std::max(kMinJump, kSigmas * (matched.sigma + last_matched_->sigma))) return;
+  jump_reported_ = true;
   findings_.push_back("GPS: it jumped by " + short_number(jump) + " m while the robot moved " +
                       short_number(moved) +
                       " m: reflections, a changed base station, or another receiver on the topic. Fixes that "
@@ -110,20 +110,20 @@ void GpsAgreement::check_jump(const Place& place) {
 }
 
 void GpsAgreement::check_track() {
-  if (track_said_) return;
+  if (track_reported_) return;
   const auto count = static_cast<Eigen::Index>(track_.size());
   Eigen::Matrix2Xd gps(2, count), odom(2, count);
   double sigma = 0.0;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Place& place = track_[static_cast<std::size_t>(k)];
-    gps.col(k) = place.gps;
-    odom.col(k) = place.odom;
-    sigma = std::max(sigma, place.sigma);
+    const MatchedFix& matched = track_[static_cast<std::size_t>(k)];
+    gps.col(k) = matched.gps;
+    odom.col(k) = matched.odom;
+    sigma = std::max(sigma, matched.sigma);
   }
   const Fit fit = fit_of(gps, odom);
   contradictions_ = fit.rotated > std::max(kMinMisfit, kMisfitSigmas * sigma) ? contradictions_ + 1 : 0;
   if (contradictions_ < kContradictions) return;
-  track_said_ = true;
+  track_reported_ = true;
   std::string why = "it is of another robot or time, or the position is wrong";
   if (fit.width > kMinWidth && fit.mirrored < kMirroredFits * fit.rotated_sized) {
     why = "it is mirrored: latitude and longitude are swapped, or one of them has the wrong sign";

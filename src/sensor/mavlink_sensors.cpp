@@ -91,7 +91,7 @@ void MavlinkSensors::handle(const MavlinkAttitude& message, Stamp arrival, Devic
 }
 
 void MavlinkSensors::handle(const MavlinkGps& message, Stamp, DeviceSamples& samples) {
-  // Its time is of the measurement, long before it is sent: it tells nothing of the clock.
+  // Its time is that of the measurement, long before transmission, so it is not used for the clock.
   const auto boot = boot_time(message.time);
   const auto stamp = boot ? clock_.to_system(*boot) : std::nullopt;
   if (!stamp) return;

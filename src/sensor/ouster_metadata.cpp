@@ -84,8 +84,8 @@ class MetadataFields {
 
 /// A row-major matrix of 4 x 4 in mm.
 Pose read_transform(MetadataFields& fields, const char* key, const Pose& otherwise) {
-  constexpr double kMostMillimetres = 1e4, kSlack = 1e-3;
-  const std::vector<double> values = fields.numbers(key, kMostMillimetres);
+  constexpr double kMaxMillimetres = 1e4, kSlack = 1e-3;
+  const std::vector<double> values = fields.numbers(key, kMaxMillimetres);
   if (values.empty()) return otherwise;
   if (values.size() == 16) {
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(values.data());
@@ -119,9 +119,9 @@ void read_beams(MetadataFields& fields, OusterMetadata& out) {
                                std::sin(altitude));
     out.beams.push_back(beam.cast<float>());
   }
-  constexpr double kMostMillimetres = 1e3;
+  constexpr double kMaxMillimetres = 1e3;
   const Eigen::Vector3d along(
-      fields.number("lidar_origin_to_beam_origin_mm", kFirstBeamOrigin, kMostMillimetres), 0.0, 0.0);
+      fields.number("lidar_origin_to_beam_origin_mm", kFirstBeamOrigin, kMaxMillimetres), 0.0, 0.0);
   const Pose origin = read_transform(fields, "beam_to_lidar_transform",
                                      make_pose(Eigen::Quaterniond::Identity(), along * kMillimetre));
   out.beam_origin = origin.translation().cast<float>();

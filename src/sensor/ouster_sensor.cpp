@@ -11,7 +11,7 @@ constexpr std::uint64_t kLongestTurn = 300'000'000;
 /// Turns by which a packet may come late; further back the device counts anew.
 constexpr int kMayBeLate = 10;
 
-/// A reading of HourClock, which resolves the rest.
+/// A reading of TopOfHourClock, which resolves the rest.
 std::uint32_t within_hour(std::uint64_t nanoseconds) {
   return static_cast<std::uint32_t>(nanoseconds / 1'000 % 3'600'000'000);
 }
@@ -32,7 +32,7 @@ tl::expected<void, PacketRefusal> OusterSensor::add_lidar(ByteView bytes, Stamp 
   if (packet->columns.empty()) return {};
   // The packet leaves with its last column.
   const std::uint64_t sent = packet->columns.back().time;
-  const HourClock::Reading clock = clock_.read(within_hour(sent), arrival);
+  const TopOfHourClock::Reading clock = clock_.read(within_hour(sent), arrival);
   if (clock.restarted ||
       (turn_ && apart(sent, turn_->begun) > kLongestTurn && turns_ahead(packet->frame) == 0))
     discard();
@@ -73,7 +73,7 @@ tl::expected<void, PacketRefusal> OusterSensor::add_lidar(ByteView bytes, Stamp 
 tl::expected<Imu, PacketRefusal> OusterSensor::add_imu(ByteView bytes, Stamp arrival) {
   auto imu = read_ouster_imu(bytes, metadata_);
   if (!imu) return tl::unexpected(std::move(imu.error()));
-  const HourClock::Reading clock = clock_.read(within_hour(imu->time), arrival);
+  const TopOfHourClock::Reading clock = clock_.read(within_hour(imu->time), arrival);
   if (clock.restarted) discard();
   imu->sample.stamp = clock.device + clock_.offset();
   return std::move(imu->sample);

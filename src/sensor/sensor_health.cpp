@@ -34,7 +34,7 @@ constexpr std::uint64_t kMinScansChecked = 40;
 constexpr std::uint64_t kScansPerGround = 5;
 constexpr std::size_t kGrounds = 40;
 constexpr Duration kImuGap = std::chrono::milliseconds(250), kPauseOfImu = std::chrono::seconds(10);
-constexpr Duration kGapsJudgedAfter = std::chrono::seconds(10);
+constexpr Duration kMinGapObservation = std::chrono::seconds(10);
 constexpr double kGapShare = 0.1;
 constexpr double kSteepest = 25.0 * kDegree;  // slope on which a robot starts
 constexpr double kLevel = 5.0 * kDegree;      // tilt of the ground in base_link
@@ -109,12 +109,12 @@ void SensorHealth::check_motion(Stamp stamp, const std::optional<Pose>& T_odom_b
 void SensorHealth::check_gaps(Stamp stamp) {
   const std::optional<Stamp> before = std::exchange(last_imu_, stamp);
   if (!first_imu_) first_imu_ = stamp;
-  if (!before || stamp <= *before || imu_gaps_said_) return;
+  if (!before || stamp <= *before || imu_gaps_reported_) return;
   if (stamp - *before > kPauseOfImu) first_imu_ = stamp;  // it was off
   if (stamp - *before > kImuGap && stamp - *before <= kPauseOfImu) imu_gaps_ += to_seconds(stamp - *before);
   const double heard = to_seconds(stamp - *first_imu_);
-  if (stamp - *first_imu_ < kGapsJudgedAfter || imu_gaps_ < kGapShare * heard) return;
-  imu_gaps_said_ = true;
+  if (stamp - *first_imu_ < kMinGapObservation || imu_gaps_ < kGapShare * heard) return;
+  imu_gaps_reported_ = true;
   state("IMU: samples are missing: " + short_number(100.0 * imu_gaps_ / heard) +
         " % of the time is in gaps of more than 0.25 s, in which the motion is not measured. Check its "
         "cable, the "

@@ -19,7 +19,7 @@ tl::expected<void, PacketRefusal> VelodyneSweeps::add(ByteView bytes, Stamp arri
   auto packet = read_velodyne_packet(bytes);
   if (!packet) return tl::unexpected(std::move(packet.error()));
   ++counters_.packets;
-  const HourClock::Reading time = clock_.read(packet->microseconds, arrival);
+  const TopOfHourClock::Reading time = clock_.read(packet->microseconds, arrival);
   if (time.restarted || packet->model != model_) discard();
   model_ = packet->model;
   for (const VelodyneBlock& block : packet->blocks)

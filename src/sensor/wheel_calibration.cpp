@@ -99,7 +99,7 @@ Eigen::Matrix<double, 5, 1> residual(const Step& step, const Eigen::Matrix3d& R_
   const Eigen::Matrix3d R = in_wheels(step.T_begin_end.linear());
   const Eigen::Vector3d offset = x.segment<3>(kOffset);
   Eigen::Matrix<double, 5, 1> e;
-  // A body that sways does so about a point that nobody knows: only turns about z show the lever arm.
+  // The point about which a body sways is not known, so only turns about z show the lever arm.
   const Eigen::Matrix3d R_yaw = so3_exp({0.0, 0.0, so3_log(R).z()});
   e.head<3>() =
       R_wheels_base * step.T_begin_end.translation() - way / (1.0 + x[kScale]) - (R_yaw * offset - offset);

@@ -9,7 +9,7 @@
 namespace fleetmap::sim {
 namespace {
 
-constexpr double kStanding = 0.02;  // m/s
+constexpr double kMaxStationarySpeed = 0.02;  // m/s
 
 double towards(double value, double target, double max_change) {
   return value + std::clamp(target - value, -max_change, max_change);
@@ -96,7 +96,7 @@ void Vehicle::move(double wanted, double dt) {
     speed_ = way * std::max(0.0, before - (spec_.braking + spec_.acceleration) * dt);
     if (world_->blocked(ahead(speed_ * dt), spec_.radius)) speed_ = 0.0;
   }
-  touching_ = (in_the_way && std::abs(speed_) < kStanding) || (touching_ && wanted == 0.0);
+  touching_ = (in_the_way && std::abs(speed_) < kMaxStationarySpeed) || (touching_ && wanted == 0.0);
   const Eigen::Vector2d next = ahead(speed_ * dt);
   odometer_ += std::abs(speed_) * dt;
   p_ = next;

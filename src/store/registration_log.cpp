@@ -89,8 +89,8 @@ struct RegistrationLog::State {
     return values[0] * (values[1] - values[2]);
   }
 
-  /// Drops the oldest until `room` (B) is free below the bound. To search all for the clouds that nobody uses
-  /// any more takes long, so an eighth of the bound is freed at once.
+  /// Drops the oldest until `room` (B) is free below the bound. The search for clouds without a registration
+  /// takes long, so an eighth of the bound is freed at once.
   Status make_room(std::size_t room) {
     std::optional<std::int64_t> before;
     for (std::uint64_t max_bytes = config.max_bytes;; max_bytes = config.max_bytes / 8 * 7) {

@@ -48,7 +48,7 @@ TEST(AgentConfig, EachPartIsCheckedUnderItsName) {
   expect_refused(
       valid(), [](AgentConfig& c) { c.nodes.spacing = 0.0; }, "nodes: spacing");
   expect_refused(
-      valid(), [](AgentConfig& c) { c.own_path.reach = 0.0; }, "loop_closures.reach");
+      valid(), [](AgentConfig& c) { c.own_path.reach = 0.0; }, "own_path.reach");
   expect_refused(
       valid(), [](AgentConfig& c) { c.loop_closure.max_attempts = 0; }, "exchange: loop_candidates");
   expect_refused(

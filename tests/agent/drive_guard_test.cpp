@@ -76,7 +76,7 @@ TEST(DriveGuard, AResultThatComesLateIsNone) {
   }
 }
 
-TEST(DriveGuard, WhoIsHeldStandsUntilItIsLetGo) {
+TEST(DriveGuard, HeldRobotStopsUntilResumed) {
   DriveGuard guard;
   see(guard, kStart);
   guard.set_held(true);
@@ -85,7 +85,7 @@ TEST(DriveGuard, WhoIsHeldStandsUntilItIsLetGo) {
   EXPECT_EQ(guard.check(kStart), std::nullopt);
 }
 
-TEST(DriveGuard, WhoStopsNeverDrivesAgain) {
+TEST(DriveGuard, StoppedGuardNeverDrivesAgain) {
   DriveGuard guard;
   guard.stop();
   see(guard, kStart);

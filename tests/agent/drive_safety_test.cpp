@@ -146,7 +146,7 @@ TEST(DriveSafety, AnOperatorHoldsAllRobotsAndLetsThemGo) {
   EXPECT_TRUE(fleet.run_until_driving());
 }
 
-TEST(DriveSafety, WhoMissedAnOrderHearsOfItFromTheOthers) {
+TEST(DriveSafety, MissedOrderIsReceivedFromOtherRobots) {
   DrivenFleet fleet({.robots = {"r1", "r2"}, .long_range_loss = 0.3});
   ASSERT_TRUE(fleet.run_until_driving());
   // Nothing reaches r2 for a while, so that it cannot hear the operator himself.
@@ -162,7 +162,7 @@ TEST(DriveSafety, WhoMissedAnOrderHearsOfItFromTheOthers) {
   EXPECT_EQ(fleet.robot("r2").agent->navigator()->stop_reason(), StopReason::kHeld);
 }
 
-TEST(DriveSafety, WhoIsHeldStaysSoWhenItsProgramStartsAnew) {
+TEST(DriveSafety, HoldRemainsAfterARestartOfTheProgram) {
   DrivenFleet fleet({});
   ASSERT_TRUE(fleet.run_until_driving());
   fleet.order("r1", true);

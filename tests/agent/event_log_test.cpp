@@ -53,7 +53,7 @@ TEST(EventLog, ASenderThatMisbehavesIsNamedByTheLinkAndNotByTheMessage) {
   EXPECT_THAT(logged(event), HasSubstr("or the message is forged"));
 }
 
-TEST(EventLog, WhatTheAgentHandlesItselfIsNotLoggedHere) {
+TEST(EventLog, EventsThatTheAgentHandlesAreNotLogged) {
   EXPECT_EQ(logged(exchange::SessionTaken{kR2}), "");
   EXPECT_EQ(logged(exchange::CloudNeeded{{kR1, 1}, kR2}), "");
 }

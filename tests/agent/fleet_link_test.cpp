@@ -16,11 +16,11 @@ using namespace std::chrono_literals;
 
 AgentId id(const char* name) { return AgentId::parse(name).value(); }
 
-exchange::Exchange make_exchange(store::Store& store, exchange::LoopCloser& loop_closer) {
+exchange::Exchange make_exchange(store::Store& store, exchange::CloudClient& cloud_client) {
   exchange::ExchangeConfig config;
   config.fleet = {id("r1"), id("r2")};
   config.payload_size = [](const messages::Message& message) { return fleet_codec::encode(message).size(); };
-  return exchange::Exchange::make(config, store, loop_closer, {}).value();
+  return exchange::Exchange::make(config, store, cloud_client, {}).value();
 }
 
 TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
@@ -31,8 +31,8 @@ TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
   network->set_position(id("r1"), {0.0, 0.0, 0.0});
   network->set_position(id("r2"), {10.0, 0.0, 0.0});
   auto store = store::Store::open(folder.path() / "store.db", id("r1")).value();
-  loop_closure::CandidateScheduler loop_closer(id("r1"), {});
-  exchange::Exchange exchange = make_exchange(store, loop_closer);
+  loop_closure::CandidateScheduler cloud_client(id("r1"), {});
+  exchange::Exchange exchange = make_exchange(store, cloud_client);
   FleetLink link(id("r1"), own, exchange, [] {});
 
   const auto say = [&](const messages::Message& message) {
@@ -88,8 +88,8 @@ std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   TalkativeRadio radio(network->add_robot(id("r1")), bytes_a_tick);
   network->add_robot(id("r2"));
   auto store = store::Store::open(folder.path() / "store.db", id("r1")).value();
-  loop_closure::CandidateScheduler loop_closer(id("r1"), {});
-  exchange::Exchange exchange = make_exchange(store, loop_closer);
+  loop_closure::CandidateScheduler cloud_client(id("r1"), {});
+  exchange::Exchange exchange = make_exchange(store, cloud_client);
   const NodeId node{id("r1"), 0};
   EXPECT_TRUE(store.put_node_with_submap(testing::make_node(id("r1"), 0, Bytes(100, 1)), Bytes(100, 1)));
   EXPECT_TRUE(exchange.provide_cloud(node, Bytes(25'000, 7), radio.now()));
@@ -105,7 +105,7 @@ std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   return bytes;
 }
 
-TEST(FleetLink, WhatTheRadioItselfSaysCountsAgainstTheShare) {
+TEST(FleetLink, OverheadOfTheRadioCountsAgainstTheShare) {
   const std::uint64_t alone = sent_beside(0), beside = sent_beside(150);  // 7500 B/s of a part of 9062
   EXPECT_GT(alone, 100'000u);
   EXPECT_LT(beside, alone / 3);

@@ -98,8 +98,8 @@ TEST_F(ItemKeysTest, AChangedMemberHandsOnWhatIsGenuineAndInventsNothing) {
   config.payload_size = [](const messages::Message& message) { return fleet_codec::encode(message).size(); };
   config.authenticator = std::make_shared<ItemKeys>(r2_);
   auto store = store::Store::open(folder.path() / "store.db", id("r2")).value();
-  loop_closure::CandidateScheduler loop_closer(store.self(), {});
-  auto exchange = exchange::Exchange::make(config, store, loop_closer, network->now()).value();
+  loop_closure::CandidateScheduler cloud_client(store.self(), {});
+  auto exchange = exchange::Exchange::make(config, store, cloud_client, network->now()).value();
   std::vector<exchange::ItemRefused> refused;
   FleetLink link(id("r2"), bus_of_r2, exchange, [&] {
     for (const exchange::Event& event : exchange.take_events()) {

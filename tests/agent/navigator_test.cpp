@@ -40,34 +40,34 @@ class NavigatorTest : public ::testing::Test {
     config.plan = small_plan();
     ASSERT_TRUE(config.plan);
     auto made = Navigator::create(config, self_, site_, *bus_, [this](messages::MissionReport report) {
-      told_.push_back(std::move(report));
+      reports_.push_back(std::move(report));
     });
     ASSERT_TRUE(made) << made.error().message;
     navigator_ = std::move(*made);
   }
 
   /// A scan at `p` (ENU) with the robot's nose to `yaw`.
-  Perceived at(const Eigen::Vector2d& p, double yaw) const {
-    Perceived perceived;
-    perceived.G.emplace();
-    perceived.G->position = LocalFrame(site_).to_geo({p.x(), p.y(), 0.0});
-    perceived.G->q_enu_base = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
-    return perceived;
+  ScanEstimate at(const Eigen::Vector2d& p, double yaw) const {
+    ScanEstimate estimate;
+    estimate.G.emplace();
+    estimate.G->position = LocalFrame(site_).to_geo({p.x(), p.y(), 0.0});
+    estimate.G->q_enu_base = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+    return estimate;
   }
   /// Scans and ticks at one place for `seconds`; `told`: what who leads the robot tells it.
-  void stay(const Perceived& perceived, int seconds, const Bytes& told = {}) {
+  void stay(const ScanEstimate& estimate, int seconds, const Bytes& told = {}) {
     for (int k = 0; k < 10 * seconds; ++k) {
       if (!told.empty()) bus_->publish(fleet_codec::topics::guide_pose(), told);
       network_->run_until(network_->now() + std::chrono::milliseconds(100));
-      see(perceived);
+      see(estimate);
       if (k % 5 == 4) navigator_->tick(false);
     }
     network_->run_until(network_->now());
   }
-  void see(Perceived perceived) {
-    perceived.arrival = network_->now();
+  void see(ScanEstimate estimate) {
+    estimate.arrival = network_->now();
     navigator_->on_scan();
-    navigator_->on_perceived(perceived);
+    navigator_->on_estimate(estimate);
   }
   void expect_zeros() const {
     for (const auto& command : commands_) {
@@ -94,7 +94,7 @@ class NavigatorTest : public ::testing::Test {
   bus::Bus* bus_ = nullptr;
   bus::Handle subscription_;
   std::vector<ros_codec::VelocityCommand> commands_;
-  std::vector<messages::MissionReport> told_;
+  std::vector<messages::MissionReport> reports_;
   std::unique_ptr<Navigator> navigator_;
 };
 
@@ -135,8 +135,8 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   };
   for (int k = 0; k < 3; ++k) led_at({0.0, 0.0});
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
-  ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
+  ASSERT_FALSE(reports_.empty());
+  EXPECT_NEAR(reports_.back().position.x(), 0.0, 0.01);
 
   stay(at({30.0, 30.0}, 0.0), 1);
   bus_->publish(fleet_codec::topics::guide_pose(), Bytes(7, 0xff));
@@ -150,44 +150,44 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0) << "who led it fell silent";
 }
 
-TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
+TEST_F(NavigatorTest, GuidePoseReplacesGps) {
   for (int k = 0; k < 8; ++k) {
     stay(at({9.0, 4.0}, 0.0), 1, fleet_codec::encode(*at({1.0, 0.0}, 0.0).G));
   }
-  ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().position.x(), 1.0, 0.01);
+  ASSERT_FALSE(reports_.empty());
+  EXPECT_NEAR(reports_.back().position.x(), 1.0, 0.01);
   stay(at({9.0, 4.0}, 0.0), 8);
-  EXPECT_NEAR(told_.back().position.x(), 9.0, 0.01) << "alone again, it goes by its own G";
+  EXPECT_NEAR(reports_.back().position.x(), 9.0, 0.01) << "alone again, it goes by its own G";
 }
 
 TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
-  Perceived broken = at({0.0, 0.0}, 0.0);
+  ScanEstimate broken = at({0.0, 0.0}, 0.0);
   broken.G->position.latitude = std::numeric_limits<double>::quiet_NaN();
   stay(broken, 2);
   for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0);
-  EXPECT_TRUE(told_.empty());
+  EXPECT_TRUE(reports_.empty());
 }
 
 TEST_F(NavigatorTest, StopsInFrontOfAWall) {
-  Perceived perceived = at({0.0, 0.0}, 0.0);
+  ScanEstimate estimate = at({0.0, 0.0}, 0.0);
   for (float y = -8.0f; y <= 8.0f; y += 0.05f) {
-    for (float z = 0.2f; z < 1.0f; z += 0.1f) perceived.odometry.points.points.emplace_back(0.55f, y, z);
+    for (float z = 0.2f; z < 1.0f; z += 0.1f) estimate.odometry.points.points.emplace_back(0.55f, y, z);
   }
-  stay(perceived, 3);
+  stay(estimate, 3);
   ASSERT_FALSE(commands_.empty());
   for (const auto& command : commands_) EXPECT_LE(command.forward_speed, 0.11);
 }
 
 TEST_F(NavigatorTest, TellsTheOthersEveryFewSeconds) {
   stay({}, 6);
-  EXPECT_TRUE(told_.empty()) << "there is nothing to tell without a pose";
+  EXPECT_TRUE(reports_.empty()) << "there is nothing to tell without a pose";
   stay(at({0.0, 0.0}, 0.0), 16);
-  ASSERT_GE(told_.size(), 3u);
-  EXPECT_LE(told_.size(), 4u);
-  EXPECT_EQ(told_.back().from, self_);
-  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
-  EXPECT_EQ(told_.back().claimed.bytes().size(), 1u);
-  EXPECT_TRUE(told_.back().claimed.has(0)) << "it claims its row";
+  ASSERT_GE(reports_.size(), 3u);
+  EXPECT_LE(reports_.size(), 4u);
+  EXPECT_EQ(reports_.back().from, self_);
+  EXPECT_NEAR(reports_.back().position.x(), 0.0, 0.01);
+  EXPECT_EQ(reports_.back().claimed.bytes().size(), 1u);
+  EXPECT_TRUE(reports_.back().claimed.has(0)) << "it claims its row";
 }
 
 TEST_F(NavigatorTest, HearsOfItsBattery) {
@@ -197,8 +197,8 @@ TEST_F(NavigatorTest, HearsOfItsBattery) {
   ASSERT_TRUE(navigator_->battery());
   EXPECT_NEAR(*navigator_->battery(), 0.25, 1e-6);
   stay(at({0.0, 0.0}, 0.0), 2);
-  ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().battery, 0.25, 1e-6);
+  ASSERT_FALSE(reports_.empty());
+  EXPECT_NEAR(reports_.back().battery, 0.25, 1e-6);
 }
 
 TEST_F(NavigatorTest, RowsThatOthersDroveAreDrivenIfTheirNodesLieAlongThem) {
@@ -256,7 +256,7 @@ TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
 
 TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
   stay(at({0.0, 0.0}, 0.0), 2);
-  Perceived uncertain = at({0.0, 0.0}, 0.0);
+  ScanEstimate uncertain = at({0.0, 0.0}, 0.0);
   uncertain.G->covariance = 4.9 * 4.9 * Matrix6d::Identity();
   commands_.clear();
   stay(uncertain, 1);
@@ -275,7 +275,7 @@ TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
 
 TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
   stay(at({0.0, 0.0}, 0.0), 2);
-  Perceived lost = at({0.0, 0.0}, 0.0);
+  ScanEstimate lost = at({0.0, 0.0}, 0.0);
   lost.odometry.lost = true;
   commands_.clear();
   stay(lost, 1);
@@ -287,7 +287,7 @@ TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
   expect_zeros();  // whoever leads it does not see what is in the way
 }
 
-TEST_F(NavigatorTest, WhoIsLedObeysAnOrder) {
+TEST_F(NavigatorTest, GuidedRobotObeysAnOrder) {
   const Bytes told = fleet_codec::encode(*at({0.0, 0.0}, 0.0).G);
   stay({}, 2, told);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
@@ -298,7 +298,7 @@ TEST_F(NavigatorTest, WhoIsLedObeysAnOrder) {
   expect_zeros();
 }
 
-TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
+TEST_F(NavigatorTest, HeldRobotIsNotStuckAndKeepsItsRow) {
   stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_EQ(navigator_->status().mine, 1u);
   navigator_->obey(order(true));
@@ -309,14 +309,14 @@ TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
   EXPECT_EQ(navigator_->status().state, messages::MissionState::kDriving);
   EXPECT_EQ(navigator_->status().mine, 1u);
   EXPECT_EQ(navigator_->status().replans, 0u);
-  EXPECT_FALSE(told_.empty()) << "the others hear of it";
+  EXPECT_FALSE(reports_.empty()) << "the others hear of it";
   navigator_->obey(order(false));
   stay(at({0.0, 0.0}, 0.0), 5);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
   EXPECT_EQ(navigator_->status().mine, 1u) << "the time that it was held does not count";
 }
 
-TEST_F(NavigatorTest, WhoIsBlindForLongGivesItsRowsToOthers) {
+TEST_F(NavigatorTest, RobotThatIsBlindForLongGivesItsRowsToOthers) {
   stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_EQ(navigator_->status().mine, 1u);
   for (int k = 0; k < 60; ++k) {
@@ -326,7 +326,7 @@ TEST_F(NavigatorTest, WhoIsBlindForLongGivesItsRowsToOthers) {
   EXPECT_EQ(navigator_->status().mine, 0u);
 }
 
-TEST_F(NavigatorTest, WhoIsNotInThePlanHasNoNavigator) {
+TEST_F(NavigatorTest, RobotThatIsNotInThePlanHasNoNavigator) {
   NavigatorConfig config;
   config.plan = small_plan();
   const auto none = Navigator::create(config, AgentId::parse("r7").value(), site_, *bus_, [](auto) {});

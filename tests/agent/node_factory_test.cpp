@@ -17,20 +17,20 @@ constexpr Stamp kStart = stamp_from_ns(1'750'000'000'000'000'000);
 NodeId name(std::uint32_t k) { return {kSelf, first_seq(kSession) + k}; }
 
 /// A scan at x metres ahead of the start, with a wall two metres ahead of the robot.
-Perceived scan_at(double x, bool located = true) {
-  Perceived perceived;
-  perceived.odometry.stamp = kStart + from_seconds(x);
-  perceived.odometry.T_odom_base.translation().x() = x;
-  perceived.odometry.covariance = 1e-4 * Matrix6d::Identity();
+ScanEstimate scan_at(double x, bool located = true) {
+  ScanEstimate estimate;
+  estimate.odometry.stamp = kStart + from_seconds(x);
+  estimate.odometry.T_odom_base.translation().x() = x;
+  estimate.odometry.covariance = 1e-4 * Matrix6d::Identity();
   for (int k = 0; k < 50; ++k)
-    perceived.odometry.points.points.push_back({2.0f, 0.2f * static_cast<float>(k), 0.0f});
+    estimate.odometry.points.points.push_back({2.0f, 0.2f * static_cast<float>(k), 0.0f});
   if (located) {
-    perceived.G.emplace();
-    perceived.G->stamp = perceived.odometry.stamp;
-    perceived.G->position = geo_point_from_degrees(48.0, 11.0, 500.0);
-    perceived.G->covariance = Matrix6d::Identity();
+    estimate.G.emplace();
+    estimate.G->stamp = estimate.odometry.stamp;
+    estimate.G->position = geo_point_from_degrees(48.0, 11.0, 500.0);
+    estimate.G->covariance = Matrix6d::Identity();
   }
-  return perceived;
+  return estimate;
 }
 
 class NodeFactoryTest : public ::testing::Test {
@@ -78,7 +78,7 @@ TEST_F(NodeFactoryTest, TheNextNodeBeginsWhereTheLastOneWasStored) {
 }
 
 TEST_F(NodeFactoryTest, AScanThatTheOdometryLostEntersNoNode) {
-  Perceived lost = scan_at(0.0);
+  ScanEstimate lost = scan_at(0.0);
   lost.odometry.lost = true;
   EXPECT_FALSE(factory_.add(std::move(lost), kStart));
   EXPECT_FALSE(factory_.has_rest());

@@ -48,7 +48,7 @@ class PerceptionTest : public ::testing::Test {
     network_ = bus::LocalNetwork::create(network).value();
     bus_ = &network_->add_robot(AgentId::parse("r1").value());
     perception_ = std::make_unique<Perception>(
-        config_, *bus_, [this](Perceived&& perceived) { perceived_.push_back(std::move(perceived)); },
+        config_, *bus_, [this](ScanEstimate&& perceived) { perceived_.push_back(std::move(perceived)); },
         [this] { ++scans_heard_; });
   }
   void run_for(Duration time) { network_->run_until(network_->now() + time); }
@@ -70,7 +70,7 @@ class PerceptionTest : public ::testing::Test {
   PerceptionConfig config_;
   std::unique_ptr<bus::LocalNetwork> network_;
   bus::Bus* bus_ = nullptr;
-  std::vector<Perceived> perceived_;
+  std::vector<ScanEstimate> perceived_;
   int scans_heard_ = 0;
   std::unique_ptr<Perception> perception_;
 };
@@ -103,7 +103,7 @@ TEST_F(PerceptionTest, AScanBecomesOdometryHereAndOnTheBus) {
   EXPECT_EQ(perception_->odometry_counters().updates, 1u);
 }
 
-TEST_F(PerceptionTest, WhatCannotBeDecodedIsCountedAndNoEnd) {
+TEST_F(PerceptionTest, UndecodableMessagesAreCountedAndSkipped) {
   run_for(1s);
   for (const bus::Topic& topic : {topics::imu(), topics::fix(), topics::wheel_odometry()})
     bus_->publish(topic, kNoMessage);

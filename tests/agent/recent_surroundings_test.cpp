@@ -28,7 +28,7 @@ place::Descriptor of(const cloud::PointCloud& points_in_base) {
   return place::Descriptor::of(points_in_base.points, Eigen::Vector3d::UnitZ());
 }
 
-TEST(RecentSurroundings, OfNothingNothingIsSeen) {
+TEST(RecentSurroundings, NoSubmapsGiveAnEmptyDescriptor) {
   EXPECT_EQ(of(RecentSurroundings(), at(0, 0)), place::Descriptor());
 }
 

@@ -29,7 +29,7 @@ PerceptionConfig stated(double height) {
   return config;
 }
 
-TEST(SensorMounts, OfADefaultAreThoseOfTheFrames) {
+TEST(SensorMounts, DefaultMountsAreThoseOfTheFrames) {
   PerceptionConfig config;
   SensorMounts mounts(config);
   mounts.add({kMast, kLidar, {"mast", "imu_link", {}, kPitched}, {"base_link", "antenna", {0.0, 0.1, 1.0}}});

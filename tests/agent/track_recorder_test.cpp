@@ -7,11 +7,11 @@
 namespace fleetmap::agent {
 namespace {
 
-Perceived scan_at(double seconds, double x) {
-  Perceived perceived;
-  perceived.odometry.stamp = stamp_from_ns(0) + from_seconds(seconds);
-  perceived.odometry.T_odom_base.translation().x() = x;
-  return perceived;
+ScanEstimate scan_at(double seconds, double x) {
+  ScanEstimate estimate;
+  estimate.odometry.stamp = stamp_from_ns(0) + from_seconds(seconds);
+  estimate.odometry.T_odom_base.translation().x() = x;
+  return estimate;
 }
 
 TEST(TrackRecorder, EverySessionHasItsOwnOdometryAndAllShareTheGlobalTrack) {
@@ -19,15 +19,15 @@ TEST(TrackRecorder, EverySessionHasItsOwnOdometryAndAllShareTheGlobalTrack) {
   {
     auto tracks = TrackRecorder::open(folder.path(), 0);
     ASSERT_TRUE(tracks) << tracks.error().message;
-    Perceived perceived = scan_at(1.0, 2.0);
-    tracks->add(perceived);
-    perceived = scan_at(2.0, 3.0);
-    perceived.G.emplace().stamp = perceived.odometry.stamp;
-    perceived.G->position = geo_point_from_degrees(39.0, -3.0, 600.0);
-    tracks->add(perceived);
+    ScanEstimate estimate = scan_at(1.0, 2.0);
+    tracks->add(estimate);
+    estimate = scan_at(2.0, 3.0);
+    estimate.G.emplace().stamp = estimate.odometry.stamp;
+    estimate.G->position = geo_point_from_degrees(39.0, -3.0, 600.0);
+    tracks->add(estimate);
     tracks->begin_session(1);
-    perceived.odometry.T_odom_base.translation().x() = 0.5;
-    tracks->add(perceived);
+    estimate.odometry.T_odom_base.translation().x() = 0.5;
+    tracks->add(estimate);
   }
   const auto first = output::read_tum(output::odometry_file(folder.path(), 0));
   ASSERT_TRUE(first) << first.error().message;

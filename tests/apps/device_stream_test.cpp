@@ -92,7 +92,7 @@ TEST(DeviceStream, ASecondReaderOfASerialPortIsRefused) {
   EXPECT_THAT(refusal(SerialPort{device.path(), 57600}), HasSubstr("another program reads it"));
 }
 
-TEST(DeviceStream, WhatIsNoDeviceIsNamed) {
+TEST(DeviceStream, FileThatIsNoDeviceIsNamed) {
   const fleetmap::testing::TemporaryFolder folder;
   EXPECT_THAT(refusal(SerialPort{folder.path() / "ttyACM0", 57600}),
               HasSubstr("ttyACM0: no such device; plug it in"));

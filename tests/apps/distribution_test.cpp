@@ -7,7 +7,7 @@
 namespace fleetmap::apps {
 namespace {
 
-TEST(Distribution, OfManyValuesInAnyOrder) {
+TEST(Distribution, SummarisesValuesInAnyOrder) {
   std::vector<double> values;
   for (int k = 100; k >= 0; --k) values.push_back(k);
   const Distribution d = distribution(values);
@@ -19,7 +19,7 @@ TEST(Distribution, OfManyValuesInAnyOrder) {
   EXPECT_EQ(d.max, 100.0);
 }
 
-TEST(Distribution, OfOneValueAndOfNone) {
+TEST(Distribution, SummarisesOneValueAndNone) {
   const Distribution one = distribution({7.0});
   EXPECT_EQ(one.p50, 7.0);
   EXPECT_EQ(one.p99, 7.0);

@@ -64,7 +64,7 @@ TEST_F(ElevationExport, AMapThatIsNotGeoreferencedStaysInItsOwnFrame) {
   EXPECT_THAT(output_, HasSubstr("nobody knows where to lay them: r2"));
 }
 
-TEST_F(ElevationExport, WhatDoesNotBelongToItIsRefused) {
+TEST_F(ElevationExport, UnsuitableOptionsAreRefused) {
   const std::string located = store(true);
   export_rasters(located, {"--tile", "50"});
   EXPECT_EQ(exit_code_, 2);

@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <memory>
 #include <sstream>
 
 #include "support/temporary_folder.hpp"
@@ -29,6 +32,23 @@ TEST(FaultSearch, CountsTheSeedsThatFail) {
   ASSERT_TRUE(ended);
   EXPECT_EQ(*ended, kDone) << out.str();
   EXPECT_THAT(out.str(), ContainsRegex("1 seeds, 0 failed; [1-9][0-9]* nodes, [1-9][0-9]* packets"));
+}
+
+/// The robots log the faults that are injected; the log of the program that called it goes on afterwards.
+TEST(FaultSearch, SilencesTheLogWhileItRunsAlone) {
+  const auto lines = std::make_shared<std::ostringstream>();
+  const auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(*lines);
+  const auto level = spdlog::get_level();
+  spdlog::default_logger()->sinks().push_back(sink);
+  spdlog::set_level(spdlog::level::debug);
+  std::ostringstream out;
+  const auto ended = search_faults(one_small_fleet(), out);
+  const auto after = spdlog::get_level();
+  spdlog::set_level(level);
+  spdlog::default_logger()->sinks().pop_back();
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(lines->str(), "");
+  EXPECT_EQ(after, spdlog::level::debug);
 }
 
 TEST(FaultSearch, AReplayPrintsTheSameFleetEachTimeAndLeavesItsStores) {

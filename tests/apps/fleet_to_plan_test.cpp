@@ -26,7 +26,7 @@ TEST(FleetToPlan, WithoutAFileRobotsAreNumberedAndHaveTheMissionsSpeed) {
   EXPECT_FALSE(fleet->origin);
 }
 
-TEST(FleetToPlan, OfAFleetsFileAllMembersAndItsOriginCount) {
+TEST(FleetToPlan, FleetFileGivesAllMembersAndItsOrigin) {
   const auto fleet = fleet_to_plan(kSite, kConfig + "fleets/farm_small.yaml", 1, {});
   ASSERT_TRUE(fleet) << fleet.error().message;
   EXPECT_EQ(fleet->robots.size(), 5u) << "the number of robots is the file's";

@@ -116,7 +116,7 @@ TEST_F(LasExport, AMapThatIsNotGeoreferencedStaysInItsOwnFrame) {
   EXPECT_THAT(las.text(), HasSubstr("Nobody knows its place"));
 }
 
-TEST_F(LasExport, WhatCannotBeWrittenIsRefusedWithASentence) {
+TEST_F(LasExport, UnwritableExportsAreRefusedWithTheReason) {
   const std::string located = store(true);
   struct Case {
     std::vector<std::string> more;

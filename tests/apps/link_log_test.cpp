@@ -57,7 +57,7 @@ TEST_F(LinkLogTest, ADelayIsOfMessagesThatCarryATime) {
   EXPECT_THAT(rows(), ElementsAre("1000.0,long_range,r2,r1,,,0.0,10.0,5"));
 }
 
-TEST_F(LinkLogTest, WhatTheLinkCarriesIsKnownWhileSubmapsFillIt) {
+TEST_F(LinkLogTest, CapacityOfTheLinkIsKnownWhileSubmapsFillIt) {
   log_.add_traffic({}, {}, kStart);
   log_.add_traffic({traffic(bus::Link::kShortRange, 100, 500'000)}, {kR2}, kStart + 1s);  // begun within it
   log_.add_traffic({traffic(bus::Link::kShortRange, 200, 1'000'000)}, {kR2}, kStart + 2s);

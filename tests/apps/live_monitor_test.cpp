@@ -138,7 +138,7 @@ TEST_F(LiveMonitor, reads_again_what_could_not_be_read) {
   const std::filesystem::path file = folder_ / "store.db";
   const auto page = apps::LiveMonitor::start(
       any_port, [file] { return std::vector{file}; },
-      [file, &busy]() -> Result<apps::ShownRun> {
+      [file, &busy]() -> Result<apps::LoadedRun> {
         if (busy) return failure("busy");
         return apps::open_one(file);
       },

@@ -156,7 +156,7 @@ TEST_F(MapDays, MergedFitEachOtherThoughGpsDoesNotAndNothingHasChanged) {
   EXPECT_THAT(output_, HasSubstr("\n0 changes: 0 appeared, 0 disappeared\n"));
 }
 
-TEST_F(MapDays, OfPlacesThatDoNotOverlapOrOfOneRunAreNotJoinedAndNotCompared) {
+TEST_F(MapDays, StoresWithoutOverlapOrOfOneRunAreNotJoined) {
   drive("elsewhere",
         {.session = 3000, .more = {"--set", "site.origin=[39.02, -3.0, 600.0]", "--set", "max_time=30"}});
   const fs::path merged = twin_.path("apart");

@@ -75,7 +75,7 @@ TEST_F(MapInfo, RobotsThatHoldTheSameHaveTheSameHashHoweverItCame) {
   EXPECT_EQ(first.at("robots").at("r1").at("sessions"), 1);
 }
 
-TEST_F(MapInfo, WhatOneLacksChangesItsHash) {
+TEST_F(MapInfo, MissingItemsChangeTheHash) {
   const nlohmann::json whole = info(write_store("r1", false, 2, false));
   const nlohmann::json without_submap = info(write_store("r1", false, 2, true));
   const nlohmann::json without_alignment = info(write_store("r1", false, 1, false));

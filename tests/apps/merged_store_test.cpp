@@ -50,7 +50,7 @@ TEST_F(MergedStoreTest, TwoDaysFitEachOtherThoughGpsOfOneIsOff) {
   EXPECT_EQ(output::map_recipe(*store)->origin, merged.recipe.origin);
 }
 
-TEST_F(MergedStoreTest, WhatWasMergedIsMergedAgain) {
+TEST_F(MergedStoreTest, MergedStoresCanBeMergedAgain) {
   drive("a.db", 0, {0.0, 0.0, 0.0});
   drive("b.db", 3, {0.0, 1.5, 0.5});
   drive("c.db", 4, {0.0, -1.0, 0.5});

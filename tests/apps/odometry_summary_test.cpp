@@ -41,7 +41,7 @@ TEST(OdometrySummary, GivesTimesAScan) {
   EXPECT_THAT(out.str(), HasSubstr("refused 2 scans, first: no points\n"));
 }
 
-TEST(OdometrySummary, OfASoundRunTheLengthAloneIsSaid) {
+TEST(OdometrySummary, SoundRunPrintsItsLengthAlone) {
   const std::string text = losses_of(run_of_ten_scans());
   EXPECT_THAT(text, HasSubstr("length 0 m"));
   EXPECT_EQ(std::ranges::count(text, '\n'), 1);

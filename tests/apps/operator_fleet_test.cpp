@@ -21,7 +21,7 @@ class OperatorFleetTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(OperatorFleetTest, OfARobotsFileTheOperatorReachesTheRobotItselfToo) {
+TEST_F(OperatorFleetTest, RobotFileAddressesTheRobotItselfToo) {
   const std::string file = robot_file(
       "dds:\n  long_range: {peers: [10.0.0.2], address: 10.0.0.1}\n  short_range: {enabled: false}\n");
   const auto fleet = operator_fleet(file, {});
@@ -34,7 +34,7 @@ TEST_F(OperatorFleetTest, OfARobotsFileTheOperatorReachesTheRobotItselfToo) {
   EXPECT_FALSE(fleet->dds.settings) << "an operator has no settings to compare";
 }
 
-TEST_F(OperatorFleetTest, OfAFleetsFileAllMembersAreAddressed) {
+TEST_F(OperatorFleetTest, FleetFileAddressesAllMembers) {
   const auto fleet = operator_fleet(FLEETMAP_SOURCE_DIR "/config/fleets/farm_small.yaml", {});
   ASSERT_TRUE(fleet) << fleet.error().message;
   EXPECT_THAT(fleet->robots, ElementsAre(id("r1"), id("r2"), id("r3"), id("r4"), id("r5")));

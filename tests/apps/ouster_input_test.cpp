@@ -96,7 +96,7 @@ TEST(OusterInput, PacketsOverUdpBecomeScansAndImuSamples) {
   }
 }
 
-TEST(OusterInput, WhatIsNoPacketIsCounted) {
+TEST(OusterInput, BytesThatAreNoPacketAreCounted) {
   const agent::OusterConfig config = config_of(OusterDevice(Duration::zero()));
   Received received(config);
   const UdpSender lidar(config.lidar_port), imu(config.imu_port);

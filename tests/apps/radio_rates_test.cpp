@@ -75,7 +75,7 @@ TEST(RadioRates, ADelayIsOfMessagesThatCarryATime) {
   EXPECT_NEAR(rates.add({}, {some}, kStart + 2s).peers.at(0).delay_s.value(), 0.03, 1e-9);
 }
 
-TEST(RadioRates, WhatIsOlderThanTheWindowIsForgotten) {
+TEST(RadioRates, SamplesOlderThanTheWindowAreForgotten) {
   RadioRates rates;
   rates.add({}, {}, kStart);
   rates.add({}, {heard(1, 200, 0, 10ms)}, kStart + 1s);

@@ -70,7 +70,7 @@ TEST_F(RecordingPlayerTest, PlaysAllInTheirOrderAndNotBeforeTheirTimes) {
   EXPECT_GE(heard_[2] - begin, 150ms) << "at twice the rate";
 }
 
-TEST_F(RecordingPlayerTest, WhatCannotBeReadEndsItWithTheReason) {
+TEST_F(RecordingPlayerTest, UnreadableSampleEndsThePlaybackWithTheReason) {
   RecordedSamples recording(imu_at({0, 10}), "bag.db3: disk image is malformed");
   RecordingPlayer player(recording, {}, *bus_, names_, 1.0);
   ASSERT_TRUE(player.start());

@@ -100,7 +100,7 @@ TEST_F(FleetReport, ThePageShowsTheTracksOfTheFolder) {
   EXPECT_THAT(page_, HasSubstr("no robot has a place on Earth")) << "none has a map";
 }
 
-TEST_F(FleetReport, OfARobotThatIsOffTheProblemIsThere) {
+TEST_F(FleetReport, RobotThatIsOffHasAProblemInTheReport) {
   outcome_.agents[1].problem = "its store is damaged";
   const auto agents = written()["agents"];
   EXPECT_TRUE(agents["r2"]["switched_off"]);

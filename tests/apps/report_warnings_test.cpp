@@ -44,7 +44,7 @@ monitor::PairAnswer apart() {
   return pair;
 }
 
-TEST(ReportWarnings, OfASoundRunThereAreNone) {
+TEST(ReportWarnings, SoundRunHasNoWarnings) {
   EXPECT_THAT(report_warnings(sound_fleet(), {}), IsEmpty());
   monitor::PairAnswer joined = apart();
   joined.state = monitor::PairState::joined;
@@ -84,7 +84,7 @@ TEST(ReportWarnings, EachCounterThatShouldBeZeroIsNamedWithItsRobot) {
   }
 }
 
-TEST(ReportWarnings, WhatTwoRobotsSayAlikeIsSaidOnce) {
+TEST(ReportWarnings, EqualWarningsOfTwoRobotsAreMerged) {
   json report = sound_fleet();
   for (const char* robot : {"r1", "r2"})
     report["agents"][robot]["alignments_computed_by"] = {{"r3", {{"quarantined", true}}}};
@@ -107,7 +107,7 @@ TEST(ReportWarnings, WithoutAMapNobodyKnowsThePlace) {
               ElementsAre(AllOf(HasSubstr("r1 has no place on Earth"), HasSubstr("map was not written"))));
 }
 
-TEST(ReportWarnings, WhyThereIsNoPlaceFollowsFromTheFixes) {
+TEST(ReportWarnings, MissingGeoreferenceIsExplainedByTheFixes) {
   json agent = sound_fleet()["agents"]["r1"];
   EXPECT_THAT(why_no_place(agent), HasSubstr("30 of 30 GPS fixes were used, too few"));
   agent["localization"] = {{"fix_used", 0}, {"fix_invalid", 28}, {"fix_gated", 2}, {"fix_implausible", 0}};

@@ -56,7 +56,7 @@ TEST_F(RunMeasurement, PrintsWhatItMeasuredAndWhatIsMissing) {
   EXPECT_THAT(output_, HasSubstr("none: no such folder"));
 }
 
-TEST_F(RunMeasurement, OfARunThatWasCutOffTellsHowToSaveItsMap) {
+TEST_F(RunMeasurement, InterruptedRunPrintsHowToSaveItsMap) {
   folder_.write("run/r1/odometry.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
   folder_.write("run/r1/store.db", "");
   run({"eval", path("run")});

@@ -44,8 +44,8 @@ TEST_F(RunSummary, NamesTheMapOfEachRobotOrWhyThereIsNone) {
 TEST_F(RunSummary, NamesRobotsInQuarantineAndThoseThatContradictTheFleet) {
   EXPECT_THAT(printed(), Not(HasSubstr("quarantine")));
   output::Results& results = *outcome_.agents[0].results;
-  results.placement.credits[robot("r3")] = {0, 6, 2, true};
-  results.placement.credits[robot("r4")] = {6, 1, 0, false};
+  results.placement.alignment_stats[robot("r3")] = {0, 6, 2, true};
+  results.placement.alignment_stats[robot("r4")] = {6, 1, 0, false};
   results.contradicting[robot("r5")] = {9, {robot("r1"), robot("r2")}, 0, 0};
   EXPECT_THAT(printed(), HasSubstr("r3 is in quarantine: 2 alignments that it computed are false"));
   EXPECT_THAT(printed(), Not(HasSubstr("r4")));

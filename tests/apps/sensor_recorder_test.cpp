@@ -49,7 +49,7 @@ class SensorRecorderTest : public ::testing::Test {
   std::filesystem::path directory_ = folder_.path() / "bag";
 };
 
-TEST_F(SensorRecorderTest, WhatArrivesUntilItIsClosedIsInTheBag) {
+TEST_F(SensorRecorderTest, SamplesBeforeTheCloseAreInTheBag) {
   const auto recording = recorder();
   for (const int ms : {1000, 1100, 1200}) publish(ms);
   ASSERT_TRUE(recording->close());

@@ -44,7 +44,7 @@ TEST(SitePlan, IsPrintedAndWrittenWithAPicture) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "plan.png"));
 }
 
-TEST(SitePlan, OfAFleetTheFirstRobotsArePlannedAndNoMoreThanItHas) {
+TEST(SitePlan, PlansTheFirstRobotsOfAFleetAndNoMoreThanItHas) {
   std::ostringstream out;
   PlanOptions options = options_for(kSite);
   options.config = FLEETMAP_SOURCE_DIR "/config/agents/r1.yaml";

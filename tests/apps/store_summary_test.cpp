@@ -39,7 +39,7 @@ class StoreSummary : public ::testing::Test {
   fleetmap::testing::TemporaryFolder folder_;
 };
 
-TEST_F(StoreSummary, OfAnEmptyStoreIsZero) {
+TEST_F(StoreSummary, EmptyStoreHasZeroCounts) {
   const auto json = summary_of(opened("r1"));
   EXPECT_EQ(json["store_of"], "r1");
   for (const char* count : {"nodes", "alignments", "submaps", "submap_bytes"})

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 AgentId robot(const char* name) { return AgentId::parse(name).value(); }
 
-TEST(StoredMap, WhateverIsNoStoreIsRefusedWithTheRemedy) {
+TEST(StoredMap, FilesThatAreNoStoreAreRefusedWithTheRemedy) {
   const testing::TemporaryFolder folder;
   EXPECT_THAT(check_store(folder.path()).error().message, HasSubstr("is a folder; give the store.db"));
   EXPECT_THAT(check_store(folder.path() / "none.db").error().message, HasSubstr("none.db: no such file"));

@@ -107,7 +107,7 @@ TEST(TwinWithoutGps, ARobotThatWasRestartedGoesOnWithItsMap) {
   }
 }
 
-TEST(TwinWithoutGps, WhoIsNotLedWouldNeverDriveAndIsRefused) {
+TEST(TwinWithoutGps, FleetWithoutGpsAndGuideIsRefused) {
   const testing::SmallTwin twin;
   twin.write_fleet("", {"", "robot: {gps: {fitted: false}}"});
   const auto run = twin.run("out", {"--agents", "2"});

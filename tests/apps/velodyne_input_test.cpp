@@ -69,7 +69,7 @@ TEST(VelodyneInput, PacketsOverUdpBecomeScans) {
   }
 }
 
-TEST(VelodyneInput, WhatIsNoPacketIsCounted) {
+TEST(VelodyneInput, BytesThatAreNoPacketAreCounted) {
   Received received;
   const UdpSender sender(received.input->port());
   for (const std::size_t size : {0u, 10u, 1206u, 3000u}) sender.send(Bytes(size));

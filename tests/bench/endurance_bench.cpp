@@ -179,7 +179,7 @@ class Endurance : private fault_injection::ExchangeFleet {
       mode.score = 0.7;
       mode.covariance = covariance(kOdometrySigma);
       const auto put = robot.exchange->on_own_alignment(fleet_codec::quantised(alignment).value(), now());
-      if (!put || *put != store::Put::kAdded) robot.loop_closer->on_rejected(job.pair, now());
+      if (!put || *put != store::Put::kAdded) robot.cloud_client->on_rejected(job.pair, now());
     }
   }
 

@@ -64,7 +64,7 @@ Site farm(const std::string& name, unsigned seed, bool hilly = false, double siz
   return drivable_farm(name, config);
 }
 
-/// Sites of a set. What is in `final` was not looked at while the method was made.
+/// Sites of a set. `final` was not used while the method was developed.
 std::vector<PairPlace> places_of(const std::string& set) {
   std::vector<PairPlace> places;
   const auto add = [&](const std::string& kind, unsigned seed, const Gathering& how) {

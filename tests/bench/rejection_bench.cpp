@@ -1,6 +1,6 @@
 // Our outlier rejection and the standard remedies on the same pose graphs: four robots on interleaved
-// lanes, 1.5 m and 5 m GPS through a filter, alignments between neighbours and of each robot with itself. Of
-// the false alignments two thirds are in runs of six that agree with each other (one row or one post off),
+// lanes, 1.5 m and 5 m GPS through a filter, alignments between neighbours and of each robot with itself.
+// Two thirds of the false alignments are in runs of six that agree with each other (one row or one post off),
 // the others are off by metres anywhere. Five seeds, and one of a fleet of ten robots with 50,000 nodes;
 // prints false ones kept, true ones lost, both in % of all, joint ATE in m, and CPU ms.
 

@@ -280,7 +280,7 @@ TEST_P(BusSuite, ABigPointCloudPassesOnboard) {
   }
 }
 
-TEST_P(BusSuite, WhatAFullQueueDropsIsCounted) {
+TEST_P(BusSuite, DropsOfAFullQueueAreCounted) {
   const auto fleet = make({.robots = 2, .queue_capacity = 8});
   std::vector<Message> received;
   const Handle handle = fleet->robot(1).subscribe(kBulk, into(received));

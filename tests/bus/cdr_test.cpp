@@ -58,7 +58,7 @@ TEST(Cdr, OtherEncapsulationsAreRefusedByNumber) {
   EXPECT_TRUE(check_encapsulation(kBig, "Note"));
 }
 
-TEST(Cdr, WhoLooksFirstChangesNothingAndMayRefuse) {
+TEST(Cdr, PeekingChangesNothingAndMayRefuse) {
   std::uint32_t number = 0;
   const auto note = from_cdr<Note>(kBig, "Note", [&](Cdr& cdr) { cdr >> number; });
   ASSERT_TRUE(note);

@@ -95,7 +95,7 @@ TEST_F(QosDirectory, APeerThatVanishesDoesNotHoldUpAWriter) {
   }
 }
 
-TEST_F(QosDirectory, WhatCameFromEachRobotIsCountedOnce) {
+TEST_F(QosDirectory, TrafficOfEachRobotIsCountedOnce) {
   const Topic topic{Link::kLongRange, "node", "Node", "small"};
   const auto sender = DdsBus::create(config_).value();
   sender->advertise(topic);

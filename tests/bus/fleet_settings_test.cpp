@@ -14,7 +14,7 @@ using ::testing::StartsWith;
 constexpr FleetSettings kOurs{
     .wire_schema = 3, .fleet = 7, .submap_voxel = 1000, .map_voxel = 500, .placement = 9};
 
-TEST(Differences, OfEqualSettingsThereAreNone) { EXPECT_THAT(differences("r2", kOurs, kOurs), IsEmpty()); }
+TEST(Differences, EqualSettingsHaveNoDifferences) { EXPECT_THAT(differences("r2", kOurs, kOurs), IsEmpty()); }
 
 TEST(Differences, OneSettingIsOneSentenceAboutThatRobot) {
   FleetSettings theirs = kOurs;

@@ -51,7 +51,7 @@ TEST(Introductions, LeaveOutTheReceiverAndWhomItSaidToKnow) {
               ElementsAre(2, 5));
 }
 
-TEST(Introductions, OfTwoThatJoinedLongAgoAreNotMade) {
+TEST(Introductions, RobotsThatJoinedLongAgoAreNotIntroduced) {
   const Introductions introductions;
   const std::vector<Introduction> known{robot(1, seconds(1), seconds(31)), robot(2, seconds(1), seconds(29))};
   EXPECT_THAT(numbers(introductions.select(known, prefix(9), seconds(31))), ElementsAre(2));
@@ -78,15 +78,15 @@ TEST(Introductions, FitIntoAHello) {
   EXPECT_LT(encode(hello).size(), 1280u) << "one IP packet";
 }
 
-TEST(Introductions, OfARobotThatIsGoneAreBelievedOnlyAfterItSpokeItself) {
+TEST(Introductions, RobotThatLeftIsIntroducedOnlyAfterItsOwnHello) {
   Introductions introductions;
-  EXPECT_TRUE(introductions.believes(robot(1)));
-  EXPECT_FALSE(introductions.believes(robot(1, seconds(11))));
+  EXPECT_TRUE(introductions.accepts(robot(1)));
+  EXPECT_FALSE(introductions.accepts(robot(1, seconds(11))));
   introductions.forget(prefix(1));
-  EXPECT_FALSE(introductions.believes(robot(1)));
-  EXPECT_TRUE(introductions.believes(robot(2)));
+  EXPECT_FALSE(introductions.accepts(robot(1)));
+  EXPECT_TRUE(introductions.accepts(robot(2)));
   introductions.meet(prefix(1));
-  EXPECT_TRUE(introductions.believes(robot(1)));
+  EXPECT_TRUE(introductions.accepts(robot(1)));
 }
 
 TEST(Introductions, RememberABoundedNumberOfRobots) {
@@ -99,7 +99,7 @@ TEST(Introductions, RememberABoundedNumberOfRobots) {
   }
   Introduction first = robot(0);
   first.prefix = {1};
-  EXPECT_TRUE(introductions.believes(first)) << "forgotten long ago";
+  EXPECT_TRUE(introductions.accepts(first)) << "forgotten long ago";
 }
 
 TEST(Introductions, TravelInAHello) {

@@ -48,7 +48,7 @@ class LocalRobotTest : public ::testing::Test {
   std::unique_ptr<LocalRobot> robot_ = made();
 };
 
-TEST_F(LocalRobotTest, WhatItPublishesOnARadioIsTransmittedAndNotHeardHere) {
+TEST_F(LocalRobotTest, OwnRadioMessagesAreTransmittedAndNotReceived) {
   const Handle handle = robot_->subscribe(kNode, [this](const Bytes& cdr) { heard_.push_back(cdr[0]); });
   robot_->publish(kNode, {1, 2, 3});
   events_.run_until(Stamp{} + 1s);

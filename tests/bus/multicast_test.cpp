@@ -79,7 +79,7 @@ class Multicast : public QosDirectory {
   }
 };
 
-TEST_F(Multicast, WhatIsForAllIsOneDatagram) { EXPECT_EQ(tell_two(true, true), 21); }
+TEST_F(Multicast, MessageForAllIsOneDatagram) { EXPECT_EQ(tell_two(true, true), 21); }
 
 TEST_F(Multicast, WithoutItEachGetsItsOwn) { EXPECT_EQ(tell_two(false, false), 0); }
 

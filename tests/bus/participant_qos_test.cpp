@@ -42,7 +42,7 @@ std::vector<std::string> places(const DdsLinkConfig& config) {
   return texts(listening_places(config, Profile().qos));
 }
 
-TEST(ListeningPlaces, OfPeersElsewhereIsTheFirstPortOfTheDomain) {
+TEST(ListeningPlaces, RemotePeersHaveTheFirstPortOfTheDomain) {
   DdsLinkConfig config;
   config.domain = 3;  // RTPS: 7400 + 250 a domain + 10, + 2 a participant
   config.address = "10.0.0.1";
@@ -52,7 +52,7 @@ TEST(ListeningPlaces, OfPeersElsewhereIsTheFirstPortOfTheDomain) {
   EXPECT_THAT(places(config), ElementsAre("10.0.0.2:8160", "10.0.0.2:8162", "10.0.0.3:7500"));
 }
 
-TEST(ListeningPlaces, OfThisMachineAreMany) {
+TEST(ListeningPlaces, PeersOfThisMachineHaveManyPorts) {
   DdsLinkConfig config;
   const auto here = places(config);
   ASSERT_EQ(here.size(), 16u);

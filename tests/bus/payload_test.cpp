@@ -50,7 +50,7 @@ TEST(Payload, TellsTheByteOrder) {
   EXPECT_EQ(payload.encapsulation, CDR_BE);
 }
 
-TEST(Payload, WhatHasNoHeaderOrNoRoomIsRefused) {
+TEST(Payload, PayloadWithoutHeaderOrRoomIsRefused) {
   SerializedPayload_t payload(8);
   EXPECT_FALSE(write_payload({0, 1, 0}, payload));
   EXPECT_FALSE(write_payload(message(9), payload)) << "12 with its padding";

@@ -52,7 +52,7 @@ TEST(QosSchema, AnElementIsAllowedInItsOwnPlaceOnly) {
       << "that is a reader's";
 }
 
-TEST(QosSchema, WhatWouldChangeTheWholeProcessIsRefused) {
+TEST(QosSchema, ProfilesThatChangeTheWholeProcessAreRefused) {
   EXPECT_THAT(error("<dds><library_settings/></dds>"),
               HasSubstr("unknown element <library_settings> in <dds>; expected one of <profiles>"));
   EXPECT_THAT(error("<dds>\n<log/></dds>"), StartsWith("f.xml:2: unknown element <log>"));

@@ -197,7 +197,7 @@ TEST_F(SealedRadio, ARobotThatStartsAnewIsKnownAgain) {
   }
 }
 
-TEST_F(SealedRadio, WhatArrivesIsCountedWithItsSeal) {
+TEST_F(SealedRadio, ReceivedBytesIncludeTheSeal) {
   Robot& first = start("r1", r1_);
   Robot& second = start("r2", r2_);
   ASSERT_TRUE(run_until([&] { return knows(first, 1) && knows(second, 1); }));
@@ -297,7 +297,7 @@ TEST_F(Replay, WithoutKeysDeceives) {
   }));
 }
 
-TEST_F(Replay, OfYesterdayIsRefusedByARobotThatHasJustStarted) {
+TEST_F(Replay, GreetingOfYesterdayIsRefusedByARobotThatJustStarted) {
   record(r1_, r2_);
   robots_.clear();
   Robot& second = start("r2", r2_, true);

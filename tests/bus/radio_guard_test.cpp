@@ -84,7 +84,7 @@ TEST_F(RadioGuardTest, MessagesAreOpenedFromAdmissionToDismissalOnceEach) {
   EXPECT_THAT(r1_.take_strangers(), IsEmpty()) << "none of this is news for an operator";
 }
 
-TEST_F(RadioGuardTest, WhoIsNotAdmittedMayGreetAndDoNothingElse) {
+TEST_F(RadioGuardTest, SenderThatIsNotAdmittedMayOnlyGreet) {
   trust::DatagramSealer sealer(keys2_, agent("r2"), static_cast<std::uint8_t>(Link::kLongRange),
                                r2_.session());
   EXPECT_FALSE(r1_.open(sealer.seal(trust::DatagramKind::kGreeting, Bytes(40, 7)), kFrom));

@@ -63,7 +63,7 @@ TEST_F(RadioReceivedTest, GapsInAWritersNumbersAreWhatTheRadioLost) {
   EXPECT_EQ(bus_->take_heard_traffic().at(0).lost, 0u) << "counted once";
 }
 
-TEST_F(RadioReceivedTest, WhoIsNotKnownIsNotHeard) {
+TEST_F(RadioReceivedTest, MessagesOfUnknownSendersAreDropped) {
   send(kStranger, 1);
   send(kKnown, 7);
   ASSERT_TRUE(came(7));

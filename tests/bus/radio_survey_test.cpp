@@ -25,7 +25,7 @@ TEST(Hello, CarriesTheSettings) {
   EXPECT_EQ(decode_hello(encode(without))->settings, std::nullopt);
 }
 
-TEST(Hello, OfAnotherVersionSaysWhoAndWhere) {
+TEST(Hello, RobotOfAnotherVersionIsNamedWithItsAddress) {
   Bytes bytes = encode(some_hello());
   EXPECT_FALSE(decode_other_hello(bytes));
   for (const std::uint8_t version : std::initializer_list<std::uint8_t>{2, 3, 5, 200}) {
@@ -67,7 +67,7 @@ TEST_F(RadioSurveyTest, RobotsThatAgreeAreHeardAndNothingElseIsSaid) {
   EXPECT_THAT(log_.text(), AllOf(HasSubstr("long_range: heard r2 at 127.0.0.1:"), Not(HasSubstr("warning"))));
 }
 
-TEST_F(RadioSurveyTest, WhatDiffersIsSaidOnceByBoth) {
+TEST_F(RadioSurveyTest, DifferentSettingsAreReportedOnceByBoth) {
   FleetSettings other = kSettings;
   other.submap_voxel = 2000;
   other.fleet = 1;

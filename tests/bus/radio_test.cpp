@@ -88,7 +88,7 @@ TEST_F(RadioTest, AFullQueueDropsItsOldestMessage) {
   EXPECT_EQ(radio().use()[0].copies, 3u);
 }
 
-TEST_F(RadioTest, WhoIsOutOfReachWhenTheTransmissionEndsMissesIt) {
+TEST_F(RadioTest, ReceiverOutOfReachAtTheEndOfATransmissionMissesIt) {
   send("r1", 1, 900);
   events_.run_until(Stamp{} + 999ms);
   out_of_reach_.insert(agent("r9"));
@@ -98,7 +98,7 @@ TEST_F(RadioTest, WhoIsOutOfReachWhenTheTransmissionEndsMissesIt) {
   EXPECT_EQ(radio().use()[0].airtime, 1s) << "it was sent all the same";
 }
 
-TEST_F(RadioTest, WhatARobotThatIsForgottenWantedToSendIsNotSent) {
+TEST_F(RadioTest, QueuedMessagesOfAForgottenRobotAreNotSent) {
   send("r1", 1, 900);
   send("r1", 2, 900);
   send("r2", 3, 900);

@@ -54,7 +54,7 @@ TEST_F(RadioTopic, FollowsTheReadersOfTheOtherRobot) {
 }
 
 /// With nobody to read it a message takes no air: it is not handed to Fast DDS, and is no drop.
-TEST_F(RadioTopic, WhatNobodyReadsIsNoDrop) {
+TEST_F(RadioTopic, MessagesWithoutAReaderAreNoDrops) {
   DdsBus& bus = start(robot("r1"));
   for (int k = 0; k < 100; ++k) bus.publish(topic("t"), Bytes(1000));
   ASSERT_EQ(bus.stats().size(), 1u);

@@ -64,7 +64,7 @@ TEST_F(WorkerTest, DoesItemsInOrderAndWhatFollowsComesOnTheCallbackThread) {
   }
 }
 
-TEST_F(WorkerTest, WhatFollowsBearsTheNameOfItsWork) {
+TEST_F(WorkerTest, FollowUpWorkHasTheNameOfItsWork) {
   std::string name;
   ASSERT_TRUE(worker_.add({"odometry", [] {}}, [&] {
     name = executor_->record()->take().under_way->name;

@@ -126,7 +126,7 @@ TEST(FindChanges, BehindWhatCameNothingIsSaidToBeGone) {
   EXPECT_GT(changes.unknown, 100u);
 }
 
-TEST(FindChanges, WhatOneDayDidNotVisitIsUnknown) {
+TEST(FindChanges, PlacesThatOneDayDidNotVisitAreUnknown) {
   Yard before, after;
   before.boxes.push_back({{16, 5, 0}, {18, 6, 1.5}});
   const auto changes = find_changes(before.drive(1), after.drive(2, -20.0, -14.0), {});
@@ -150,7 +150,7 @@ TEST(FindChanges, LeavesOfABushAreNoChanges) {
   EXPECT_THAT(found(yard, yard).changes, IsEmpty());
 }
 
-TEST(FindChanges, WhatDrivesByIsNoChange) {
+TEST(FindChanges, MovingObjectsAreNoChange) {
   Yard with_car;
   with_car.car = true;
   EXPECT_THAT(found(with_car, {}).changes, IsEmpty());

@@ -67,7 +67,7 @@ TEST_F(MapComparisonTest, OneSubmapAloneIsNoEvidence) {
   EXPECT_TRUE(compared({view(0, true)}, without_).free.empty());
 }
 
-TEST_F(MapComparisonTest, WhatItsOwnDaySawThroughMoved) {
+TEST_F(MapComparisonTest, CellsThatTheirOwnDaySawThroughHaveMoved) {
   // Two submaps saw the thing, four saw through its place.
   const std::vector<ObservedSubmap> passing = {view(0, true),   view(2, true),  view(-2, false),
                                                view(-1, false), view(1, false), view(3, false)};

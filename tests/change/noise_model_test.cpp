@@ -37,14 +37,14 @@ TEST_F(NoiseModelTest, SurfacesDifferFromTheirNoiseOnTimesTheMisfitOfTheDays) {
   EXPECT_NEAR(NoiseModel(within, &between, config_).min_distance(inside), 0.5f, 0.01f);
 }
 
-TEST_F(NoiseModelTest, WhereTooLittleWasSeenNothingDiffers) {
+TEST_F(NoiseModelTest, TilesWithFewSurfacesHaveNoDifferences) {
   TileDistances within(config_.tile_m);
   within.add(observed_twice(here_), observed_twice(near_), config_);
   EXPECT_FLOAT_EQ(NoiseModel(within, nullptr, config_).min_distance({500.0f, 0.0f, 0.0f}), 3.0f);
   EXPECT_FLOAT_EQ(NoiseModel(within, &within, config_).min_distance({500.0f, 0.0f, 0.0f}), 3.0f);
 }
 
-TEST_F(NoiseModelTest, WhatOneSubmapAloneSawDoesNotCount) {
+TEST_F(NoiseModelTest, SurfacesOfOneSubmapAloneDoNotCount) {
   TileDistances within(config_.tile_m);
   within.add(CellMap({&here_}, config_.cell_m), observed_twice(far_), config_);
   EXPECT_FALSE(within.quantile(0.5));

@@ -102,7 +102,7 @@ TEST(CloudWriter, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   EXPECT_FALSE(fs::exists(folder.path() / "map.pcd"));
 }
 
-TEST(CloudWriter, WhatIsNotFinishedLeavesNothing) {
+TEST(CloudWriter, UnfinishedFileLeavesNothing) {
   const fleetmap::testing::TemporaryFolder folder;
   {
     auto writer = CloudWriter::create(folder.path() / "map.pcd", true);

@@ -28,7 +28,7 @@ class CloudFile : public ::testing::Test {
   const fleetmap::testing::TemporaryFolder folder_;
 };
 
-TEST_F(CloudFile, WhatIsWrittenIsReadBack) {
+TEST_F(CloudFile, WrittenContentIsReadBack) {
   for (const bool intensities : {false, true}) {
     PointCloud cloud = testing::street_scene(2'000, 1);
     if (!intensities) cloud.intensities.clear();
@@ -75,7 +75,7 @@ TEST_F(CloudFile, ReadsAsciiOtherTypesAndOtherFields) {
   EXPECT_FALSE(ply->has_intensities());
 }
 
-TEST_F(CloudFile, OfALargeOneEveryKthPointIsRead) {
+TEST_F(CloudFile, ReadsEveryKthPointOfALargeFile) {
   PointCloud cloud;
   for (int k = 0; k < 1000; ++k) {
     cloud.points.emplace_back(static_cast<float>(k), 1.0f, 2.0f);

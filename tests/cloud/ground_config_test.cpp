@@ -31,8 +31,8 @@ TEST(GroundConfig, LengthsAndAnglesAreBounded) {
   expect_refused(Config{}, &Config::step_m, {0.0f, -1.0f, kNaN<float>}, "step_m");
   expect_accepted(Config{}, &Config::max_slope_rad, {0.01f, 1.49f});
   expect_refused(Config{}, &Config::max_slope_rad, {0.0f, 1.5f, kNaN<float>}, "max_slope_rad");
-  expect_accepted(Config{}, &Config::max_bend_rad, {0.0f, 1.49f});
-  expect_refused(Config{}, &Config::max_bend_rad, {-0.1f, 1.5f, kNaN<float>}, "max_bend_rad");
+  expect_accepted(Config{}, &Config::max_slope_change_rad, {0.0f, 1.49f});
+  expect_refused(Config{}, &Config::max_slope_change_rad, {-0.1f, 1.5f, kNaN<float>}, "max_slope_change_rad");
   expect_accepted(Config{}, &Config::min_area_m2, {0.0f});
   expect_refused(Config{}, &Config::min_area_m2, {-0.1f, kNaN<float>}, "min_area_m2");
 }

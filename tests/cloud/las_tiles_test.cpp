@@ -85,7 +85,7 @@ TEST_F(LasTilesTest, AnEmptyMapIsAnEmptyFolder) {
   EXPECT_TRUE(names_in(out_).empty());
 }
 
-TEST_F(LasTilesTest, WhatIsThereIsNotTouched) {
+TEST_F(LasTilesTest, ExistingFilesAreNotTouched) {
   folder_.write("tiles/other.las", "");
   EXPECT_THAT(LasTiles::create(out_, 50, description_).error().message,
               AllOf(HasSubstr("tiles"), HasSubstr("not empty")));
@@ -98,7 +98,7 @@ TEST_F(LasTilesTest, WhatIsThereIsNotTouched) {
   EXPECT_FALSE(LasTiles::create(folder_.path() / "new", 0, description_));
 }
 
-TEST_F(LasTilesTest, WhatIsNotFinishedLeavesNothing) {
+TEST_F(LasTilesTest, UnfinishedFileLeavesNothing) {
   {
     auto tiles = LasTiles::create(out_, 50, description_);
     ASSERT_TRUE(tiles && tiles->add(std::vector{at(431'000, 5'400'000)}));

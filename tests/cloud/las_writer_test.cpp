@@ -121,7 +121,7 @@ TEST_F(LasWriterTest, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   EXPECT_FALSE(fs::exists(file_));
 }
 
-TEST_F(LasWriterTest, WhatIsNotFinishedLeavesNothing) {
+TEST_F(LasWriterTest, UnfinishedFileLeavesNothing) {
   {
     auto writer = LasWriter::create(file_, description_);
     ASSERT_TRUE(writer && writer->add(random_points(10)));

@@ -26,7 +26,7 @@ PointCloud plane(std::size_t count, const Eigen::Vector3f& normal, float noise) 
   return cloud;
 }
 
-TEST(Normals, OfAPlaneFaceTheViewpointWithLittleVariation) {
+TEST(Normals, NormalsOfAPlaneFaceTheViewpointWithLittleVariation) {
   const Eigen::Vector3f n = Eigen::Vector3f(1, 2, -3).normalized();
   const PointCloud cloud = plane(2000, n, 0.005f);
   const Normals normals = estimate_normals(cloud, KdTree(cloud), {});
@@ -52,7 +52,7 @@ TEST(Normals, LinesSpotsAndLonelyPointsHaveNone) {
   }
 }
 
-TEST(Normals, OfSomePointsAreThoseOfAll) {
+TEST(Normals, NormalsOfSomePointsEqualThoseOfAll) {
   const PointCloud cloud = testing::street_scene(2000, 3);
   const KdTree tree(cloud);
   const Normals all = estimate_normals(cloud, tree, {});

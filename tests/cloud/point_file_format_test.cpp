@@ -16,7 +16,7 @@ TEST(PointFileFormat, IsThatOfTheExtensionInAnyCase) {
     EXPECT_EQ(format_of(name).value(), PointFileFormat::pcd) << name;
 }
 
-TEST(PointFileFormat, OfOtherNamesIsAnErrorThatSaysWhichThereAre) {
+TEST(PointFileFormat, UnknownFormatIsAnErrorThatListsTheKnownOnes) {
   for (const char* name : {"scan.xyz", "ply", ".ply", "a.ply.gz", "a.plyx", "folder.pcd/a", ""}) {
     const auto format = format_of(name);
     ASSERT_FALSE(format) << name;

@@ -47,7 +47,7 @@ TEST_F(FileKindTest, OverridesAreForRobotsAndFleets) {
   }
 }
 
-TEST_F(FileKindTest, WhatIsNoFileIsNamed) {
+TEST_F(FileKindTest, MissingFileIsNamed) {
   const auto kind = check(folder_.path() / "none.yaml", {});
   ASSERT_FALSE(kind);
   EXPECT_THAT(kind.error().message, HasSubstr("none.yaml: no such file"));

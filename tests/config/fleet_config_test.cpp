@@ -20,7 +20,7 @@ TEST_F(FleetConfigTest, MissingFileIsNamed) {
   EXPECT_THAT(robot.error().message, HasSubstr("none.yaml: no such file"));
 }
 
-TEST_F(FleetConfigTest, WhatIsNoFileIsSaidToBeNone) {
+TEST_F(FleetConfigTest, FoldersDevicesAndEmptyFilesAreRefused) {
   EXPECT_THAT(load_fleet(folder_.path(), {}).error().message, HasSubstr("a folder, not a file"));
   EXPECT_THAT(load_fleet("/dev/null", {}).error().message, HasSubstr("a device, not a file"));
   for (const char* nothing : {"", "# only a comment\n", "{}\n"})
@@ -214,7 +214,7 @@ TEST_F(FleetConfigTest, TheBudgetOfTheRadioIsThatOfItsHellosToo) {
   EXPECT_DOUBLE_EQ(robot->agent.exchange.long_range.fleet_bytes_per_second, 4500.0);
 }
 
-TEST_F(FleetConfigTest, WhatRobotsMustHaveAlikeGoesToTheRadios) {
+TEST_F(FleetConfigTest, SettingsThatRobotsMustShareGoToTheRadios) {
   const auto settings = [&](const std::string& lines, const std::string& fleet = "[r1, r2]") {
     const auto robot = load_robot(write("id: r1\nfleet: " + fleet + "\ndirectory: out\n" + lines), {});
     return robot.value().dds.settings.value();

@@ -77,7 +77,7 @@ TEST_F(InputFingerprintTest, AFolderWithAPathCountsBySizesAndTimes) {
   EXPECT_NE(print(), touched);
 }
 
-TEST_F(InputFingerprintTest, WhatCannotBeReadIsNamed) {
+TEST_F(InputFingerprintTest, UnreadableFileIsNamed) {
   const auto none = input_fingerprint(folder_.path() / "none.yaml", {});
   ASSERT_FALSE(none);
   EXPECT_THAT(none.error().message, ::testing::HasSubstr("none.yaml: no such file"));

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 struct Read {
-  loop_closure::LoopClosureConfig closure;
+  loop_closure::CandidateConfig closure;
   loop_closure::OwnPathConfig own_path;
   std::string problems;
 };
@@ -22,13 +22,13 @@ Read read(const std::string& yaml) {
   Read result;
   result.problems = problems_of(yaml, [&](Section& top) {
     read_own_path(top, result.own_path);
-    read_loop_closure(top, result.closure);
+    read_loop_candidates(top, result.closure);
   });
   return result;
 }
 
 TEST(LoopClosureSections, ReadsTheOwnPath) {
-  const Read r = read("loop_closures: {reach: 30, min_path: 70, spacing: 12}\n");
+  const Read r = read("own_path: {reach: 30, min_path: 70, spacing: 12}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.own_path.reach, 30.0);
   EXPECT_EQ(r.own_path.min_path, 70.0);
@@ -65,7 +65,7 @@ TEST(LoopClosureSections, WithoutKeysBothEndsRegisterThoseWithMostInformationFir
   EXPECT_FALSE(r.closure.stop_when_peer_aligned) << "as the paper's robots do";
   EXPECT_EQ(r.closure.order, exchange::CloudOrder::kInformation);
   EXPECT_EQ(r.closure.proximity.uncertainty, place::Uncertainty::sigma);
-  EXPECT_EQ(r.closure.spacing_m, loop_closure::LoopClosureConfig{}.spacing_m);
+  EXPECT_EQ(r.closure.spacing_m, loop_closure::CandidateConfig{}.spacing_m);
 }
 
 TEST(LoopClosureSections, ProblemsNameTheKeyAndItsLine) {
@@ -78,10 +78,8 @@ TEST(LoopClosureSections, ProblemsNameTheKeyAndItsLine) {
   EXPECT_THAT(read("loop_candidates:\n  min_information: -1\n").problems,
               HasSubstr("robot.yaml:2: loop_candidates.min_information: "));
   EXPECT_THAT(read("loop_candidates:\n  spacing: -1\n").problems, HasSubstr("loop_candidates"));
-  EXPECT_THAT(read("loop_closures:\n  min_path: 10\n").problems,
-              HasSubstr("robot.yaml:2: loop_closures.min_path: "));
-  EXPECT_THAT(read("loop_closures: {distance: 10}\n").problems,
-              HasSubstr("known here: min_path reach spacing"));
+  EXPECT_THAT(read("own_path:\n  min_path: 10\n").problems, HasSubstr("robot.yaml:2: own_path.min_path: "));
+  EXPECT_THAT(read("own_path: {distance: 10}\n").problems, HasSubstr("known here: min_path reach spacing"));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(RosSection, WithoutItsKeyAllIsPublished) {
   EXPECT_TRUE(reading.ros.publish && reading.ros.tf);
 }
 
-TEST(RosSection, WhatCannotBeIsNamed) {
+TEST(RosSection, ImpossibleValuesAreNamed) {
   EXPECT_THAT(read("{ros: {map_voxel: 0}}").problems, HasSubstr("map_voxel"));
   EXPECT_THAT(read("{ros: {map_voxels: 1}}").problems, HasSubstr("map_voxels"));
 }

@@ -193,16 +193,19 @@ TEST(YamlSection, KeysThatNobodyReadAreProblems) {
 /// A file of an earlier version must not run with the setting left out.
 TEST(YamlSection, AKeyOfAnEarlierVersionIsRefusedWithItsPresentName) {
   Reading reading(
-      "{encounters: {spacing: 1}, settle_time: 5, loop_candidates: {ripe_nodes: 4, least_gain: 1}}");
+      "{encounters: {spacing: 1}, settle_time: 5, loop_closures: {reach: 9}, loop_candidates: {ripe_nodes: "
+      "4, least_gain: 1}}");
   Section candidates = reading.top.section("loop_candidates");
   EXPECT_FALSE(candidates.has("min_nodes_after"));
   candidates.finish();
   EXPECT_FALSE(reading.top.has("exchange_timeout"));
+  EXPECT_FALSE(reading.top.has("own_path"));
   reading.top.finish();
   EXPECT_EQ(reading.problems(),
             "field/r1.yaml:1: loop_candidates.ripe_nodes: this key was renamed; write 'min_nodes_after'\n"
             "field/r1.yaml:1: loop_candidates.least_gain: unknown key; known here: min_nodes_after\n"
             "field/r1.yaml:1: encounters: this key was renamed; write 'loop_candidates'\n"
+            "field/r1.yaml:1: loop_closures: this key was renamed; write 'own_path'\n"
             "field/r1.yaml:1: settle_time: this key was renamed; write 'exchange_timeout'");
 }
 

@@ -71,7 +71,7 @@ TEST_F(FileLockTest, TheContentOfTheFileStays) {
   EXPECT_EQ(content, "r1");
 }
 
-TEST_F(FileLockTest, WhatCannotBeOpenedIsNamedWithTheRemedy) {
+TEST_F(FileLockTest, UnopenableFileIsNamedWithTheRemedy) {
   const auto file = folder_.path() / "none" / "store.lock";
   const auto missing = FileLock::try_lock(file, Kind::kShared);
   ASSERT_FALSE(missing);

@@ -9,7 +9,7 @@
 namespace fleetmap {
 namespace {
 
-TEST(Paths, WhatCannotBeLookedAtIsNotThere) {
+TEST(Paths, InaccessiblePathDoesNotExist) {
   const testing::TemporaryFolder folder;
   const auto file = folder.write("file", "x");
   EXPECT_TRUE(is_there(file));

@@ -55,7 +55,7 @@ TEST_F(WholeFileTest, ReplacesAnotherAsAWholeOrNotAtAll) {
   EXPECT_EQ(testing::file_text(file_), "new");
 }
 
-TEST_F(WholeFileTest, WhatLacksBytesIsNotFinishedThoughThereIsRoomAgain) {
+TEST_F(WholeFileTest, FileThatLacksBytesIsNotFinishedThoughThereIsRoomAgain) {
   auto file = WholeFile::create(file_);
   ASSERT_TRUE(file && file->append("header"));
   {
@@ -85,7 +85,7 @@ TEST_F(WholeFileTest, APlaceThatCannotBeWrittenIsNamed) {
 }
 
 /// --out /dev/stdout
-TEST_F(WholeFileTest, WhatIsNoRegularFileIsWrittenAsItIs) {
+TEST_F(WholeFileTest, SpecialFileIsWrittenInPlace) {
   EXPECT_TRUE(write_whole_file("/dev/null", "x"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   auto stream = WholeFile::create("/dev/null");

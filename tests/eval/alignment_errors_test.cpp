@@ -82,7 +82,7 @@ TEST(AlignmentErrors, OneRowOffIsWrongAndSoIsATurn) {
   EXPECT_TRUE(errors[2].right);
 }
 
-TEST(AlignmentErrors, OfSeveralModesTheOneThatIsTakenCounts) {
+TEST(AlignmentErrors, SelectedModeCounts) {
   TwoRobots fleet;
   graph::Alignment& alignment = fleet.alignments[0];
   graph::AlignmentMode right = alignment.modes.front();

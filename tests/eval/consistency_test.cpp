@@ -27,7 +27,7 @@ std::vector<StatedError> drawn(int count, double stated) {
   return errors;
 }
 
-TEST(Consistency, OfHonestCovariancesIsOne) {
+TEST(Consistency, NeesOfHonestCovariancesIsOne) {
   const Consistency c = consistency(drawn(4000, 1.0));
   EXPECT_EQ(c.count, 4000u);
   EXPECT_EQ(c.dimensions, 6u);

@@ -51,7 +51,7 @@ TEST(DensityAt, EqualsThePlainCountForQueriesBesideThePoints) {
   }
 }
 
-TEST(DensityAt, WhatIsNotFiniteCountsNothing) {
+TEST(DensityAt, NonFinitePointsCountNothing) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const Points points{{0, 0, 0}, {nan, 0, 0}, {0, inf, 0}};
   EXPECT_THAT(density_at(points, points, 1.0f), ElementsAre(1, 0, 0));

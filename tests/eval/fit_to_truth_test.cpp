@@ -91,7 +91,7 @@ TEST(FitToTruth, PointsOfAThingThatTheTruthLacksHardlyDrawIt) {
   EXPECT_NEAR(fit(truth, map, {1.0f, 0.2f}).translation().z(), 0.0, 1e-3) << "beyond the last stage's reach";
 }
 
-TEST(FitToTruth, WhereTheTruthIsNotFlatNothingIsFitted) {
+TEST(FitToTruth, NothingIsFittedToCurvedTruth) {
   Truth truth = corner();
   for (auto& normal : truth.normals) normal.setZero();
   const Pose found = fit(truth, moved(truth.points, pose(0.3, 0, 0, 0)), {1.0f});

@@ -70,7 +70,7 @@ TEST(Lettering, TheWidthIsThatOfTheLettersAndTheGapsBetween) {
   EXPECT_EQ(last, 2 + text_width("HHH", 1) - 1);
 }
 
-TEST(Lettering, WhatReachesBeyondTheImageIsCutOff) {
+TEST(Lettering, TextBeyondTheImageIsCutOff) {
   Image image = blank(4, 4);
   fill_rectangle(image, -2, -2, 4, 3, kInk);
   EXPECT_THAT(rows(image), ElementsAre("##..", "....", "....", "...."));

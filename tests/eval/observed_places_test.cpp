@@ -57,7 +57,7 @@ TEST(ObservedPlaces, PointsAreChosenInTheirOrder) {
   EXPECT_THAT(places.within(queries, 2).intensities, ElementsAre(2, 4));
 }
 
-TEST(ObservedPlaces, WhatIsNotFiniteOrTooFarIsLeftOut) {
+TEST(ObservedPlaces, NonFiniteAndDistantPointsAreLeftOut) {
   ObservedPlaces places(1.0, 1);
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const cloud::PointCloud bad = cloud({{nan, 0, 0}, {0, inf, 0}, {0, 0, -2e6f}, {1e6f, 0, 0}});

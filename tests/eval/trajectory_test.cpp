@@ -118,17 +118,17 @@ TEST(FleetErrors, FallIntoGeoreferenceBetweenRobotsAndBends) {
   ASSERT_TRUE(right);
   EXPECT_LT(right->joint, 1e-6);
   EXPECT_NEAR(right->georeference, right->unaligned, 1e-6);
-  // One robot's track as a whole is 0.4 m off: 0.2 m each from their best common place, and no bend.
+  // One robot's track as a whole is 0.4 m off: 0.2 m each from their best common place, and no distortion.
   b = moved(se3_exp(Vector6d{0, 0, 0.4, 0, 0, 0}), b);
   const auto apart = compare_jointly(std::array{Track{&a, &truth_a}, Track{&b, &truth_b}});
   EXPECT_GT(apart->joint, 0.02);
   EXPECT_LT(apart->joint, 0.2);
-  EXPECT_LT(apart->bend, 1e-6);
+  EXPECT_LT(apart->within_robots, 1e-6);
   EXPECT_NEAR(apart->between_robots, apart->joint, 1e-6);
   const double squares = apart->georeference * apart->georeference + apart->joint * apart->joint;
   EXPECT_NEAR(squares, apart->unaligned * apart->unaligned, 1e-9);
   for (StampedPose& pose : b) pose.T_w_base.translation().x() *= 1.01;
-  EXPECT_GT(compare_jointly(std::array{Track{&a, &truth_a}, Track{&b, &truth_b}})->bend, 0.02);
+  EXPECT_GT(compare_jointly(std::array{Track{&a, &truth_a}, Track{&b, &truth_b}})->within_robots, 0.02);
   EXPECT_FALSE(compare_jointly({}));
 }
 

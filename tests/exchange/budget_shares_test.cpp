@@ -100,7 +100,7 @@ TEST(BudgetShares, the_sum_never_exceeds_the_budget_whatever_is_lost_and_whoever
   EXPECT_GT(max_rate, 0.5 * kBudget) << "something was lent";
 }
 
-TEST(BudgetShares, who_has_need_gets_most_of_what_the_others_leave_and_gives_it_back) {
+TEST(BudgetShares, unused_shares_go_to_robots_in_need_and_return) {
   Fleet fleet(5, 1, 0.1);
   fleet.set_backlog("r1", 80'000);
   fleet.run_for(std::chrono::seconds(30));

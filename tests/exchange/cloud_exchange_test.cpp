@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "exchange/recorded_loop_closer.hpp"
+#include "exchange/recorded_cloud_client.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -27,7 +27,7 @@ class CloudExchangeTest : public ::testing::Test {
 
   fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
-  testing::RecordedLoopCloser closer_;
+  testing::RecordedCloudClient closer_;
   SendQueue queue_{{}, kOthers, [](const Message&) { return std::size_t{10}; }};
   std::vector<Event> events_;
   CloudExchange clouds_{{}, store_, closer_, queue_, events_};

@@ -47,7 +47,7 @@ TEST(ContentCheck, EqualContentsAreNeitherCutNorRequested) {
 }
 
 /// Only who holds one content can learn anything from a request.
-TEST(ContentCheck, WhoHoldsOneContentRequestsTheOtherWhoeverHearsTheFirstDigest) {
+TEST(ContentCheck, HolderOfOneContentRequestsTheOtherAfterEitherDigest) {
   for (const bool contested_hears_first : {false, true}) {
     Robot one("r1"), both("r2");
     contest(both, 77);

@@ -54,7 +54,7 @@ TEST(DigestPart, PartsBringAllThatIsHeld) {
 }
 
 /// Wherever they lie: before, between, behind and beyond the names of the robots that are held.
-TEST(DigestPart, WhatAForgedDigestAddedIsGoneOnceAllPartsCame) {
+TEST(DigestPart, NamesOfAForgedDigestAreGoneOnceAllPartsCame) {
   const SeqSet forged({{agent("a"), 0, 9},
                        {kA, 0, 5},
                        {kA, 13, 14},

@@ -98,7 +98,7 @@ TEST_F(ExchangeStateTest, CompletionIsReportedWhenItBeginsAlone) {
 }
 
 /// A robot that does not hear this one can be asked for nothing.
-TEST_F(ExchangeStateTest, WhoIsHeardOnTheWifiIsAPartnerOnceItHearsThisRobot) {
+TEST_F(ExchangeStateTest, WifiPartnerIsARobotThatHearsThisOneToo) {
   ProximityMatch match;
   match.from = kPeer;
   match.to = kThird;
@@ -112,7 +112,7 @@ TEST_F(ExchangeStateTest, WhoIsHeardOnTheWifiIsAPartnerOnceItHearsThisRobot) {
   EXPECT_EQ(closer_.heard, std::vector{kPeer});
 }
 
-TEST_F(ExchangeStateTest, WhatAHandlerRefusesIsReportedOnceWithItsKind) {
+TEST_F(ExchangeStateTest, RefusalsOfAHandlerAreReportedOnceWithTheirKind) {
   messages::Digest reversed;
   reversed.from = kPeer;
   reversed.nodes = {{kPeer, 9, 3}};

@@ -71,7 +71,7 @@ TEST(ForFleet, ASmallFleetOnTheUsualBudgetKeepsItsPeriods) {
 }
 
 TEST(FleetBudget, small_messages_do_not_wait_behind_clouds) {
-  SimFleet fleet({"r1", "r2"}, {}, 7, {}, [](loop_closure::LoopClosureConfig& config) {
+  SimFleet fleet({"r1", "r2"}, {}, 7, {}, [](loop_closure::CandidateConfig& config) {
     config.spacing_m = config.spacing_aligned_m = 0.0;  // as many clouds as will go
     config.stop_when_peer_aligned = false;
     config.max_active = 6;

@@ -36,7 +36,7 @@ TEST(Fleet, ends_with_equal_sets_whatever_the_network_loses) {
     EXPECT_GE(fleet.robot("r1").store->alignments().size(), 3u) << "seed " << seed;
     // Every cloud that was asked for came whole, or is counted as lost or no longer wanted.
     for (const auto& [name, robot] : fleet.robots()) {
-      const auto stats = robot.loop_closer->stats();
+      const auto stats = robot.cloud_client->stats();
       EXPECT_EQ(stats.requested, robot.received.size() + stats.lost + stats.ended_by_peer + stats.yielded);
       for (const auto& [candidate, cloud] : robot.received) {
         const auto& source = fleet.robots().at(candidate.source.agent);
@@ -169,7 +169,7 @@ TEST(Fleet, kills_at_any_time_lose_nothing) {
   }
 }
 
-TEST(Fleet, what_only_a_lost_robot_had_is_not_waited_for) {
+TEST(Fleet, items_of_a_lost_robot_alone_are_not_waited_for) {
   SimFleet fleet(kThree, {}, 23);
   std::set<AgentId> near{agent("r2"), agent("r3")};
   fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
@@ -269,12 +269,12 @@ TEST(Fleet, configuration_names_what_is_wrong) {
   auto store = store::Store::open(folder / "store.db", agent("r1")).value();
   ExchangeConfig config;
   config.payload_size = testing::payload_size;
-  loop_closure::CandidateScheduler loop_closer(agent("r1"), {});
-  EXPECT_FALSE(Exchange::make(config, store, loop_closer, {}));
+  loop_closure::CandidateScheduler cloud_client(agent("r1"), {});
+  EXPECT_FALSE(Exchange::make(config, store, cloud_client, {}));
   config.fleet = {agent("r1"), agent("r2")};
-  EXPECT_TRUE(Exchange::make(config, store, loop_closer, {}));
+  EXPECT_TRUE(Exchange::make(config, store, cloud_client, {}));
   config.long_range.fleet_bytes_per_second = 0.0;
-  const auto refused = Exchange::make(config, store, loop_closer, {});
+  const auto refused = Exchange::make(config, store, cloud_client, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("long_range.fleet_bytes_per_second"), std::string::npos);
 }

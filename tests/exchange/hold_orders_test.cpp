@@ -70,7 +70,7 @@ TEST(HoldOrders, OrdersForStrangersAreIgnored) {
   EXPECT_TRUE(orders.all().empty());
 }
 
-TEST(HoldOrders, OfOrdersAtOneTimeTheSaferOneIsInForce) {
+TEST(HoldOrders, SaferOfTwoSimultaneousOrdersIsInForce) {
   const auto at_once = [](HoldOrder::Kind kind) {
     return HoldOrder{kStart, agent("r1"), agent("operator"), kind};
   };

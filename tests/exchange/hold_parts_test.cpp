@@ -32,7 +32,7 @@ Part orders_for(int robots) {
   return orders;
 }
 
-TEST(HoldParts, WhatFitsIsOneMessage) {
+TEST(HoldParts, OrdersThatFitAreOneMessage) {
   EXPECT_THAT(hold_parts({}, robot(1), 4), SizeIs(1)) << "it tells what the robot does";
   EXPECT_EQ(hold_parts(orders_for(3), robot(1), 4), std::vector<Part>{orders_for(3)});
 }

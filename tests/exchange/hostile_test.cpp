@@ -124,13 +124,13 @@ TEST_F(Hostile, a_forged_next_node_that_comes_first_costs_the_name_and_not_the_n
     EXPECT_EQ(events<ItemConflict>(robot).front().id, node.id) << name.str();
   }
   const auto& store = *fleet_.robot("r3").store;
-  const auto tie = std::ranges::find_if(store.alignments(), [](const auto& entry) {
+  const auto joined = std::ranges::find_if(store.alignments(), [](const auto& entry) {
     return entry.second.i.agent == agent("r2") && entry.second.j.agent == agent("r2");
   });
-  ASSERT_NE(tie, store.alignments().end()) << "the node is tied to the one before by the odometry";
-  EXPECT_EQ(tie->second.i, made_[7].id);
+  ASSERT_NE(joined, store.alignments().end()) << "the odometry joins the node to the one before";
+  EXPECT_EQ(joined->second.i, made_[7].id);
   const Pose T_before_named = made_[7].T_odom_base.inverse() * made_[10].T_odom_base;
-  EXPECT_LT((tie->second.best().T_i_j.matrix() - T_before_named.matrix()).norm(), 1e-9);
+  EXPECT_LT((joined->second.best().T_i_j.matrix() - T_before_named.matrix()).norm(), 1e-9);
 }
 
 /// Digests of names alone would show nothing.
@@ -189,7 +189,7 @@ TEST_F(Hostile, a_forged_digest_lasts_until_the_next_genuine_one) {
   EXPECT_TRUE(events<OfferUndelivered>(fleet_.robot("r1")).empty());
 }
 
-TEST_F(Hostile, what_a_liar_keeps_offering_is_named_and_not_waited_for) {
+TEST_F(Hostile, false_offers_are_reported_and_not_waited_for) {
   run_to_end();
   const NodeId first = made_[0].id;
   const Digest lie{
@@ -216,7 +216,7 @@ TEST_F(Hostile, what_a_liar_keeps_offering_is_named_and_not_waited_for) {
   EXPECT_TRUE(fleet_.robot("r1").store->node(first));
 }
 
-TEST_F(Hostile, what_is_offered_falsely_keeps_nobody_from_asking_for_the_rest) {
+TEST_F(Hostile, false_offers_do_not_delay_other_requests) {
   run_to_end();
   fleet_.reachable = [](const AgentId& from, const AgentId&, Reach) { return from.str() != "r3"; };
   made_.push_back(fleet_.add_node("r3", 5'000.0));
@@ -305,7 +305,7 @@ TEST(HostileSubmaps, thousands_that_nobody_has_do_not_keep_live_ones_from_being_
   EXPECT_TRUE(fleet.robot("r1").store->has_submap(live.id));
 }
 
-TEST_F(Hostile, whoever_sends_under_another_name_or_against_the_rules_is_named) {
+TEST_F(Hostile, senders_of_forged_or_invalid_messages_are_named) {
   using Kind = SenderMisbehaved::Kind;
   auto& r1 = fleet_.robot("r1");
   messages::AgentStatus status;

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "exchange/recorded_loop_closer.hpp"
+#include "exchange/recorded_cloud_client.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -35,7 +35,7 @@ class ItemExchangeTest : public ::testing::Test {
   ExchangeConfig config_ = config();
   fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
-  testing::RecordedLoopCloser closer_;
+  testing::RecordedCloudClient closer_;
   Membership members_{kSelf, config_.fleet};
   Outbox outbox_{kSelf, config_};
   std::vector<Event> events_;

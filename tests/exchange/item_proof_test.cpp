@@ -92,7 +92,7 @@ TEST_F(AdoptedItemsTest, KeysOfAnotherFleetReplaceThoseOfTheFirst) {
   EXPECT_FALSE(store_.node({kPeer, 0}));
 }
 
-TEST_F(AdoptedItemsTest, OfAContestedOwnNameTheContentIsOwnWhoseSubmapIsHeld) {
+TEST_F(AdoptedItemsTest, ContestedOwnNameBelongsToTheContentWhoseSubmapIsHeld) {
   const graph::Node own = make_node(kSelf, 0, submap_);
   put_own(own, submap_);
   put(make_node(kSelf, 0, submap_, 30.0), Put::kConflict);

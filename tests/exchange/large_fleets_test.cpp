@@ -18,7 +18,7 @@ using messages::ItemRequest;
 using testing::agent;
 using testing::SimFleet;
 
-TEST(LargeFleets, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many_robots) {
+TEST(LargeFleets, fixed_traffic_leaves_most_of_the_budget_to_clouds) {
   struct Case {
     std::size_t robots;
     bool multicast;

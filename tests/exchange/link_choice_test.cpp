@@ -24,7 +24,7 @@ std::size_t sent_over(const SimFleet& fleet, Reach reach) {
   }));
 }
 
-TEST(LinkChoice, what_is_for_one_robot_leaves_the_radio_to_others_when_it_is_near) {
+TEST(LinkChoice, messages_for_a_near_robot_leave_the_radio_to_others) {
   SimFleet fleet({"r1", "r2", "r3"}, {}, 51);
   // r1 and r2 drive beside each other, r3 is out of their Wi-Fi's reach.
   fleet.reachable = [](const AgentId& from, const AgentId& to, Reach reach) {

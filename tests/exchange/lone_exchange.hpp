@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "exchange/recorded_loop_closer.hpp"
+#include "exchange/recorded_cloud_client.hpp"
 #include "fleetmap/exchange/exchange.hpp"
 #include "store/items.hpp"
 
@@ -55,7 +55,7 @@ class LoneExchange : public ::testing::Test {
 
   fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
-  RecordedLoopCloser closer_;
+  RecordedCloudClient closer_;
   Exchange exchange_ = make();
 };
 

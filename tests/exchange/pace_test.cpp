@@ -36,7 +36,7 @@ TEST(Pace, no_second_has_more_than_the_peak_whatever_the_rate_was) {
   }
 }
 
-TEST(Pace, what_the_link_itself_sends_leaves_less_for_the_rest) {
+TEST(Pace, overhead_of_the_link_leaves_less_for_messages) {
   Pace pace(5000.0, {.burst_seconds = 0.5, .peak = 1.1});
   double own = 0.0;
   for (int k = 0; k < 1000; ++k) {
@@ -50,7 +50,7 @@ TEST(Pace, what_the_link_itself_sends_leaves_less_for_the_rest) {
   EXPECT_TRUE(pace.take(100.0, kStart + std::chrono::milliseconds(22'000))) << "nobody pays for longer";
 }
 
-TEST(Pace, what_is_larger_than_a_second_s_worth_goes_after_a_second_of_silence) {
+TEST(Pace, message_above_a_second_s_budget_waits_for_a_second_of_silence) {
   Pace pace(500.0, {});
   EXPECT_TRUE(pace.take(1400.0, kStart));
   EXPECT_FALSE(pace.take(100.0, kStart + std::chrono::milliseconds(900)));

@@ -34,7 +34,7 @@ class ReconcileTest : public ::testing::Test {
   store::Store peers_ = open("r2.db", kPeer);
 };
 
-TEST_F(ReconcileTest, WhatAPeerOffersIsRequestedAndCompleteOnceItIsHeld) {
+TEST_F(ReconcileTest, OfferedItemsAreRequestedUntilTheyAreHeld) {
   fill(peers_, 2);
   Reconcile self(kSelf, config_), peer(kPeer, config_);
   self.on_heard(kPeer, kStart);

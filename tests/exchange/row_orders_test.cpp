@@ -39,7 +39,7 @@ TEST(RowOrders, AllRobotsKeepTheSameOnesInWhicheverOrderTheyCome) {
   EXPECT_FALSE(first.add(order(19, 0))) << "older than all that are kept";
 }
 
-TEST(RowOrders, WhatAnotherLacksIsNoticed) {
+TEST(RowOrders, MissingOrdersOfAnotherRobotAreDetected) {
   RowOrders orders;
   EXPECT_FALSE(orders.more_than({}));
   orders.add(order(7, 2));

@@ -104,7 +104,7 @@ TEST_F(SignedItems, signatures_come_with_the_items_through_third_robots_and_rest
   EXPECT_TRUE(events<ItemsAdopted>(fleet_.robot("r2")).empty());
 }
 
-TEST_F(SignedItems, what_is_held_is_not_verified_again) {
+TEST_F(SignedItems, held_items_are_not_verified_again) {
   const auto before = fleet_.robot("r2").exchange->stats().proofs;
   for (int k = 0; k < 5; ++k) fleet_.forge("r2", *fleet_.robot("r1").store->node(made_[0].id));
   EXPECT_EQ(fleet_.robot("r2").exchange->stats().proofs, before);
@@ -145,7 +145,7 @@ TEST_F(SignedItems, an_invented_alignment_is_refused) {
   EXPECT_EQ(events<ItemRefused>(fleet_.robot("r3")).size(), 1u);
 }
 
-TEST_F(SignedItems, what_a_third_robot_altered_is_refused_and_the_genuine_one_accepted) {
+TEST_F(SignedItems, altered_items_are_refused_and_genuine_ones_accepted) {
   fleet_.kill("r3");
   fleet_.lose_store("r3");
   fleet_.start("r3", 8);

@@ -15,7 +15,7 @@ std::size_t payload_size(const Message& message) { return fleet_codec::encode(me
 
 SimFleet::SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
                    const std::function<void(exchange::ExchangeConfig&)>& adjust,
-                   const std::function<void(loop_closure::LoopClosureConfig&)>& adjust_loops)
+                   const std::function<void(loop_closure::CandidateConfig&)>& adjust_loops)
     : ExchangeFleet(static_cast<const TemporaryFolder&>(*this) / "", {}, std::chrono::milliseconds(20)),
       network_(network),
       random_(seed) {
@@ -165,11 +165,11 @@ void SimFleet::on_received(const AgentId& name, Robot& robot, const loop_closure
   if (const auto rmse = registration(pair)) {
     add_alignment(name.str(), pair, *rmse);
   } else {
-    robot.loop_closer->on_rejected(pair, now());
+    robot.cloud_client->on_rejected(pair, now());
   }
 }
 
-void no_candidates(loop_closure::LoopClosureConfig& config) { config.proximity.min_radius = 0.1; }
+void no_candidates(loop_closure::CandidateConfig& config) { config.proximity.min_radius = 0.1; }
 
 void drive(SimFleet& fleet, const std::vector<std::string>& names, int nodes, double start_m) {
   for (int k = 0; k < nodes; ++k) {

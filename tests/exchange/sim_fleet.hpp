@@ -41,7 +41,7 @@ class SimFleet : private TemporaryFolder, public fault_injection::ExchangeFleet 
 
   SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
            const std::function<void(exchange::ExchangeConfig&)>& adjust = {},
-           const std::function<void(loop_closure::LoopClosureConfig&)>& adjust_loops = {});
+           const std::function<void(loop_closure::CandidateConfig&)>& adjust_loops = {});
 
   /// Makes these robots, started from now on, share one radio of their own.
   void share_radio(std::span<const std::string> names);
@@ -117,7 +117,7 @@ class SimFleet : private TemporaryFolder, public fault_injection::ExchangeFleet 
 };
 
 /// No loop candidates, hence no clouds.
-void no_candidates(loop_closure::LoopClosureConfig& config);
+void no_candidates(loop_closure::CandidateConfig& config);
 
 /// The robots drive on parallel tracks 8 m apart and make `nodes` nodes each, one every 2 s and 4 m.
 void drive(SimFleet& fleet, const std::vector<std::string>& names, int nodes, double start_m = 0.0);

@@ -42,7 +42,7 @@ class CaseRecordTest : public ::testing::Test {
   CaseRecord record_;
 };
 
-TEST_F(CaseRecordTest, WhatIsWrittenIsRead) {
+TEST_F(CaseRecordTest, WrittenContentIsRead) {
   ASSERT_TRUE(write_record(place(), record_));
   const auto read_back = read();
   ASSERT_TRUE(read_back);
@@ -71,7 +71,7 @@ TEST_F(CaseRecordTest, AFailureIsKeptWithItsReason) {
   EXPECT_THAT(read_back->reason, HasSubstr("robot r1 is inside a panel\nmove it "));
 }
 
-TEST_F(CaseRecordTest, OfOtherInputsOrAnotherBuildIsNone) {
+TEST_F(CaseRecordTest, RecordOfOtherInputsOrAnotherBuildIsIgnored) {
   ASSERT_TRUE(write_record(place(), record_));
   EXPECT_FALSE(read("h2"));
   EXPECT_FALSE(read("h1", "build-2"));
@@ -85,7 +85,7 @@ TEST_F(CaseRecordTest, WithoutItsPicturesCountsOnlyIfTheyAreLeftOut) {
   EXPECT_TRUE(read("h1", "build-1", LostPictures::kLeftOut));
 }
 
-TEST_F(CaseRecordTest, OfADamagedFileIsNone) {
+TEST_F(CaseRecordTest, DamagedRecordIsIgnored) {
   EXPECT_FALSE(read()) << "there is no file yet";
   nlohmann::json whole = to_json(record_);
   for (const std::string& text : {std::string(), std::string("[]"), std::string("3"),

@@ -71,8 +71,8 @@ ExperimentResult ExperimentTest::run(const RunnerConfig& runner) {
     ADD_FAILURE() << config.error().message;
     return {};
   }
-  said_.str("");
-  auto result = run_experiment(*config, twin_.engine(), runner, stop_, said_, false);
+  log_.str("");
+  auto result = run_experiment(*config, twin_.engine(), runner, stop_, log_, false);
   if (!result) {
     ADD_FAILURE() << result.error().message;
     return {};

@@ -49,7 +49,7 @@ class ExperimentTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
   FakeTwin twin_;
   std::atomic<bool> stop_{false};
-  std::ostringstream said_;
+  std::ostringstream log_;
 };
 
 }  // namespace fleetmap::experiment

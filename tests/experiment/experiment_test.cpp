@@ -44,14 +44,14 @@ TEST_F(ExperimentTest, LeavesItsTablesPlotsAndReport) {
   for (const char* file : {"results.json", "results.csv", "tables.md", "report.html"})
     EXPECT_FALSE(testing::file_text(out() / file).empty()) << file;
   EXPECT_FALSE(std::filesystem::is_empty(out() / "plots"));
-  EXPECT_THAT(said_.str(), HasSubstr("map.rmse falls over agents: holds"));
-  EXPECT_THAT(said_.str(), HasSubstr("report: " + (out() / "report.html").string()));
+  EXPECT_THAT(log_.str(), HasSubstr("map.rmse falls over agents: holds"));
+  EXPECT_THAT(log_.str(), HasSubstr("report: " + (out() / "report.html").string()));
 }
 
 TEST_F(ExperimentTest, TheReportAloneIsThatOfTheRuns) {
   const auto config = load();
   ASSERT_TRUE(config);
-  const auto nothing = report_experiment(*config, runner(), said_);
+  const auto nothing = report_experiment(*config, runner(), log_);
   ASSERT_FALSE(nothing);
   EXPECT_THAT(nothing.error().message, HasSubstr("holds no cases"));
   run(runner());
@@ -59,7 +59,7 @@ TEST_F(ExperimentTest, TheReportAloneIsThatOfTheRuns) {
                     tables = testing::file_text(out() / "tables.md");
   std::filesystem::remove(out() / "report.html");
   twin_.forget();
-  const auto again = report_experiment(*config, runner(), said_);
+  const auto again = report_experiment(*config, runner(), log_);
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_TRUE(again->good());
   EXPECT_TRUE(twin_.ran().empty());
@@ -70,7 +70,7 @@ TEST_F(ExperimentTest, TheReportAloneIsThatOfTheRuns) {
 TEST_F(ExperimentTest, AFailureIsPrintedAndSpoilsTheResult) {
   twin_.failing = {"size.agents=2.seed=01"};
   EXPECT_FALSE(run(runner()).good());
-  EXPECT_THAT(said_.str(), HasSubstr("! size.agents=2.seed=01: robot r1 is inside a panel"));
+  EXPECT_THAT(log_.str(), HasSubstr("! size.agents=2.seed=01: robot r1 is inside a panel"));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_F(FieldEngineTest, AFailureTellsTheLastWordsOfTheScript) {
   EXPECT_EQ(skipped.error().message, "no namespaces here") << "a machine that cannot do it says why";
 }
 
-TEST_F(FieldEngineTest, WhatTheRobotsDidNotLeaveIsNamed) {
+TEST_F(FieldEngineTest, MissingResultsOfRobotsAreNamed) {
   const auto result = run("exit 0");
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().message, "field.json was not written");

@@ -35,7 +35,7 @@ TEST_F(ExperimentTest, FinishedCasesAreNotRunAgain) {
   EXPECT_TRUE(run(runner(1)).good());
   EXPECT_THAT(twin_.ran(), IsEmpty());
   EXPECT_EQ(testing::file_text(out() / "results.json"), results);
-  EXPECT_THAT(said_.str(), HasSubstr("6 of 6 cases were finished by an earlier start"));
+  EXPECT_THAT(log_.str(), HasSubstr("6 of 6 cases were finished by an earlier start"));
 }
 
 TEST_F(ExperimentTest, AnInterruptLosesOnlyWhatWasUnderWay) {
@@ -93,8 +93,8 @@ TEST_F(ExperimentTest, AFailedCaseIsReportedAndRunAgainByTheNextStart) {
   EXPECT_FALSE(result.good());
   EXPECT_TRUE(result.outcome.complete());
   EXPECT_THAT(result.outcome.records, SizeIs(6));
-  EXPECT_THAT(said_.str(), HasSubstr("size.agents=2.seed=01: robot r1 is inside a panel"));
-  EXPECT_THAT(said_.str(), HasSubstr("size.agents=3.seed=02: out of memory"));
+  EXPECT_THAT(log_.str(), HasSubstr("size.agents=2.seed=01: robot r1 is inside a panel"));
+  EXPECT_THAT(log_.str(), HasSubstr("size.agents=3.seed=02: out of memory"));
   EXPECT_THAT(testing::file_text(out() / "report.html"), HasSubstr("robot r1 is inside a panel"));
   const auto kept =
       nlohmann::json::parse(testing::file_text(out() / "cases/size.agents=2.seed=01/result.json"));
@@ -201,8 +201,8 @@ TEST_F(ExperimentTest, AMetricThatNoCaseGaveIsNamed) {
   write_experiment(
       "metrics: [{name: map.rms}, {name: time}]\nstudies: [{name: a, metrics: [map.rms, time]}]\n");
   EXPECT_TRUE(run(runner()).good());
-  EXPECT_THAT(said_.str(), HasSubstr("! a: no case gave the metric map.rms;"));
-  EXPECT_THAT(said_.str(), Not(HasSubstr("metric time")));
+  EXPECT_THAT(log_.str(), HasSubstr("! a: no case gave the metric map.rms;"));
+  EXPECT_THAT(log_.str(), Not(HasSubstr("metric time")));
   EXPECT_THAT(testing::file_text(out() / "report.html"), HasSubstr("no case gave the metric map.rms"));
 }
 

@@ -75,7 +75,7 @@ TEST_F(Shapes, SeedsAreComparedWithThemselves) {
   EXPECT_EQ(check.verdict, Verdict::kHolds) << check.detail;
 }
 
-TEST_F(Shapes, WhatChanceCouldMakeHoldsWeaklyAtBest) {
+TEST_F(Shapes, ShapeThatChanceExplainsHoldsWeaklyAtBest) {
   const ShapeCheck one = check_shape(config::Shape::kRises, 1, [](double x, int) { return x; });
   EXPECT_EQ(one.verdict, Verdict::kHoldsWeakly);
   EXPECT_THAT(one.detail, HasSubstr("one seed says nothing of chance"));
@@ -242,8 +242,8 @@ TEST_F(ExperimentTest, AViolatedShapeFailsTheExperimentAndSaysByHowMuch) {
       "  - {name: size, seeds: 2, axes: [{name: agents, values: [1, 3]}], metrics: [map.rmse],\n"
       "     expect: [{metric: map.rmse, over: agents, shape: rises}]}\n");
   EXPECT_FALSE(run(runner()).good());
-  EXPECT_THAT(said_.str(), HasSubstr("! size: map.rmse rises over agents: violated"));
-  EXPECT_THAT(said_.str(), HasSubstr("the mean changes by -0.08"));
+  EXPECT_THAT(log_.str(), HasSubstr("! size: map.rmse rises over agents: violated"));
+  EXPECT_THAT(log_.str(), HasSubstr("the mean changes by -0.08"));
 }
 
 TEST_F(ExperimentTest, AShapeThatIsOnlyReportedIsViolatedWithoutFailingTheExperiment) {
@@ -252,7 +252,7 @@ TEST_F(ExperimentTest, AShapeThatIsOnlyReportedIsViolatedWithoutFailingTheExperi
       "  - {name: size, seeds: 2, axes: [{name: agents, values: [1, 3]}], metrics: [map.rmse],\n"
       "     expect: [{metric: map.rmse, over: agents, shape: rises, required: false}]}\n");
   EXPECT_TRUE(run(runner()).good());
-  EXPECT_THAT(said_.str(), HasSubstr("  size: map.rmse rises over agents (only reported): violated"));
+  EXPECT_THAT(log_.str(), HasSubstr("  size: map.rmse rises over agents (only reported): violated"));
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ class SingleCase : public ExperimentTest {
     return run_single_case(all, *index, engine, config, stop_);
   }
   ExperimentResult report() {
-    said_.str("");
-    auto result = report_experiment(load().value(), runner(), said_);
+    log_.str("");
+    auto result = report_experiment(load().value(), runner(), log_);
     if (!result) {
       ADD_FAILURE() << result.error().message;
       return {};
@@ -76,7 +76,7 @@ TEST_F(SingleCase, AGridRunsInManyProcessesAtOnce) {
 }
 
 TEST_F(SingleCase, TheReportIsOfWhatThereIsAndListsTheRest) {
-  EXPECT_FALSE(report_experiment(load().value(), runner(), said_));
+  EXPECT_FALSE(report_experiment(load().value(), runner(), log_));
   twin_.failing = {"size.agents=1.seed=02"};
   for (const char* name : {"size.agents=1.seed=01", "size.agents=1.seed=02", "size.agents=3.seed=01"})
     run_one(name);
@@ -86,8 +86,8 @@ TEST_F(SingleCase, TheReportIsOfWhatThereIsAndListsTheRest) {
               ElementsAre("size.agents=2.seed=01", "size.agents=2.seed=02", "size.agents=3.seed=02"));
   ASSERT_THAT(result.outcome.records, SizeIs(3));
   EXPECT_EQ(result.outcome.records[1].reason, "robot r1 is inside a panel\nmove it");
-  EXPECT_THAT(said_.str(), HasSubstr("? size.agents=2.seed=02: not run\n"));
-  EXPECT_THAT(said_.str(), Not(HasSubstr("? size.agents=3.seed=01")));
+  EXPECT_THAT(log_.str(), HasSubstr("? size.agents=2.seed=02: not run\n"));
+  EXPECT_THAT(log_.str(), Not(HasSubstr("? size.agents=3.seed=01")));
   EXPECT_THAT(testing::file_text(out() / "report.html"),
               HasSubstr("Incomplete: 3 runs are still to be made"));
   const auto json = nlohmann::json::parse(testing::file_text(out() / "results.json"));

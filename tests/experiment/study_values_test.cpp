@@ -103,7 +103,7 @@ TEST(StudyValues, TheSpreadIsOfFiniteValues) {
   EXPECT_EQ(spread({}, false).count, 0u);
 }
 
-TEST(StudyValues, OfMagnitudesTheMeanIsGeometric) {
+TEST(StudyValues, MeanOfMagnitudesIsGeometric) {
   const Spread decades = spread({1e-6, 1e-2, 0.0, -5.0, 1e-4}, true);
   EXPECT_EQ(decades.count, 3u) << "only positive values have a logarithm";
   EXPECT_NEAR(decades.mean, 1e-4, 1e-12);

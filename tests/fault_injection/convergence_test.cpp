@@ -34,10 +34,10 @@ class Convergence : public ::testing::Test {
       ExchangeFleet::Robot& robot = robots_[agent(name)];
       robot.store = std::make_unique<store::Store>(
           store::Store::open(folder_ / (name + ".db"), agent(name), quick).value());
-      robot.loop_closer =
-          std::make_unique<loop_closure::CandidateScheduler>(agent(name), loop_closure::LoopClosureConfig{});
+      robot.cloud_client =
+          std::make_unique<loop_closure::CandidateScheduler>(agent(name), loop_closure::CandidateConfig{});
       robot.exchange = std::make_unique<exchange::Exchange>(
-          exchange::Exchange::make(config, *robot.store, *robot.loop_closer, kNow).value());
+          exchange::Exchange::make(config, *robot.store, *robot.cloud_client, kNow).value());
     }
   }
   store::Store& store(const char* name) { return *robots_.at(agent(name)).store; }

@@ -26,10 +26,10 @@ class EndChecks : public ::testing::Test {
     ExchangeFleet::Robot& robot = robots_[agent("r1")];
     robot.store =
         std::make_unique<store::Store>(store::Store::open(folder_ / "r1.db", agent("r1"), {}).value());
-    robot.loop_closer =
-        std::make_unique<loop_closure::CandidateScheduler>(agent("r1"), loop_closure::LoopClosureConfig{});
+    robot.cloud_client =
+        std::make_unique<loop_closure::CandidateScheduler>(agent("r1"), loop_closure::CandidateConfig{});
     robot.exchange = std::make_unique<exchange::Exchange>(
-        exchange::Exchange::make(config, *robot.store, *robot.loop_closer, kNow).value());
+        exchange::Exchange::make(config, *robot.store, *robot.cloud_client, kNow).value());
     for (std::size_t k = 0; k < 3; ++k) {
       survey_.begin_frame(k, {});
       for (int n = 0; n < 10; ++n) drive(k, n);

@@ -19,7 +19,7 @@ class SimulatedSignaturesTest : public ::testing::Test {
   graph::Alignment alignment_ = make_alignment({agent("r1"), 3}, {agent("r2"), 5}, agent("r1"), 0);
 };
 
-TEST_F(SimulatedSignaturesTest, WhatTheFleetSignedIsGenuine) {
+TEST_F(SimulatedSignaturesTest, ItemsSignedByTheFleetAreGenuine) {
   EXPECT_EQ(fleet_.verify(node_), ItemProof::kUnsigned);
   EXPECT_EQ(fleet_.verify(alignment_), ItemProof::kUnsigned);
   node_.signature = fleet_.sign(node_);

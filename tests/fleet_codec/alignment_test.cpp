@@ -92,7 +92,7 @@ TEST(AlignmentCodec, QuantisedIsUnsigned) {
   EXPECT_FALSE(quantised(alignment)->signature);
 }
 
-TEST(AlignmentCodec, WhatIsNoAlignmentIsRefusedWithTheReason) {
+TEST(AlignmentCodec, InvalidAlignmentIsRefusedWithTheReason) {
   struct Case {
     const char* reason;
     std::function<void(graph::Alignment&)> change;

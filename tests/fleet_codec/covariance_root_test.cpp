@@ -58,7 +58,7 @@ TEST(CovarianceRoot, CovarianceKeepsItsShapeHoweverLongItsWeakAxis) {
   }
 }
 
-TEST(CovarianceRoot, WhatIsNoCovarianceCountsAsUnknown) {
+TEST(CovarianceRoot, InvalidCovarianceCountsAsUnknown) {
   RandomMessages random(7);
   Matrix6d no_number = Matrix6d::Identity(), negative = no_number, beyond = no_number;
   no_number(3, 3) = std::nan("");

@@ -153,7 +153,7 @@ TEST(Fields, RotationsComeBackWithinAStepOfTheirUnit) {
   expect_rotations_come_back<std::int32_t>(1.2e-6 * std::numbers::pi);
 }
 
-TEST(Fields, WhatIsNoRotationGivesACodeThatIsRefused) {
+TEST(Fields, InvalidRotationIsEncodedAsARefusedCode) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R(2, 1) = kNan;
   const auto code = encode_rotation<std::int16_t>(R);

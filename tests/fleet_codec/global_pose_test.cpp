@@ -54,7 +54,7 @@ TEST(GlobalPoseCodec, LiesOnTheWireAsTheIdlHasIt) {
   ASSERT_TRUE(decode<GlobalPose>(wire.bytes()));
 }
 
-TEST(GlobalPoseCodec, WhatIsNoPoseIsRefusedWithTheReason) {
+TEST(GlobalPoseCodec, InvalidPoseIsRefusedWithTheReason) {
   struct Case {
     const char* reason;
     std::function<void(GlobalPose&)> change;

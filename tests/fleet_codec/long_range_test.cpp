@@ -143,7 +143,7 @@ TEST(LongRange, OrdersToHoldLieOnTheWireAsTheIdlHasThem) {
   EXPECT_EQ(got.rows, hold.rows) << "to any other robot";
 }
 
-TEST(LongRange, WhatHasNoMeaningIsRefusedWithTheReason) {
+TEST(LongRange, MeaninglessValuesAreRefusedWithTheReason) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   messages::ProximityMatch match{id("r1"), id("r2"), node_id("r3", 7), node_id("r1", 9), -0.5, 1.0};
   EXPECT_THAT(refusal(match), HasSubstr("ProximityMatch: distance is negative, not finite or too large"));

@@ -98,7 +98,7 @@ TEST(NodeCodec, IsReadFromTheWire) {
   EXPECT_TRUE(node->G->covariance.isApprox(expected.G->covariance, 1e-9));
 }
 
-TEST(NodeCodec, OfTheTiltsTheMeanVarianceIsKept) {
+TEST(NodeCodec, MeanVarianceOfTheTiltsIsKept) {
   graph::Node node = simple_node();
   set_fix(node);
   node.G->covariance(3, 3) = 2e-4 * 2e-4;
@@ -112,7 +112,7 @@ TEST(NodeCodec, OfTheTiltsTheMeanVarianceIsKept) {
   EXPECT_EQ(C(3, 5), 0.0);
 }
 
-TEST(NodeCodec, WhatIsNoNodeIsRefusedWithTheReason) {
+TEST(NodeCodec, InvalidNodeIsRefusedWithTheReason) {
   const auto refusal = [](const Bytes& bytes) {
     const auto node = decode<graph::Node>(bytes);
     return node ? "none" : node.error().message;

@@ -32,7 +32,7 @@ TEST(AbsurdNumbers, ARobotWhoseHeadingIsFalseDoesNotKeepTheOthersApart) {
           node.G->q_enu_base = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * node.G->q_enu_base;
       }
       const Placement placement = place(fleet);
-      EXPECT_GE(placement.credits.at(kR1).used, 4u) << turn << ' ' << of(seed);
+      EXPECT_GE(placement.alignment_stats.at(kR1).used, 4u) << turn << ' ' << of(seed);
       expect_at_most(joint_error(fleet, placement, {kR1, kR2}), 0.58, "joint error beside a false heading",
                      seed);
     }

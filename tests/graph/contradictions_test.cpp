@@ -46,7 +46,7 @@ TEST(Contradictions, NameTheRobotThatTwoOthersContradictAndNoneOfThese) {
   EXPECT_THAT(named.at(kR4).with, ElementsAre(kR1, kR2));
 }
 
-TEST(Contradictions, OfTwoRobotsThatContradictEachOtherAloneNeitherIsNamed) {
+TEST(Contradictions, TwoRobotsThatContradictOnlyEachOtherAreNotNamed) {
   Placement placement;
   add(placement, kR1, kR4, 9, 0);
   add(placement, kR2, kR3, 0, 9);

@@ -35,7 +35,7 @@ TEST(FleetPlacement, AllTrueAlignmentsAreUsedAndTieTheFleet) {
     EXPECT_GE(placement.used.size() * 100, fleet.alignments.size() * 97) << "seed " << seed;
     EXPECT_EQ(placement.T_enu_node.size(), fleet.nodes.size());
     expect_at_most(joint_error(fleet, placement), 0.63, "joint error, true alignments", seed);
-    for (const auto& [agent, credit] : placement.credits) EXPECT_FALSE(credit.quarantined);
+    for (const auto& [agent, credit] : placement.alignment_stats) EXPECT_FALSE(credit.quarantined);
   }
 }
 
@@ -111,7 +111,7 @@ TEST(FleetPlacement, GpsOfTenMetresLeavesItToTheMajority) {
   }
 }
 
-TEST(FleetPlacement, OfWeakOrLostGpsTheAlignmentsAloneTieTheFleet) {
+TEST(FleetPlacement, AlignmentsAloneJoinTheFleetIfGpsIsWeakOrLost) {
   for (const double sigma : {10.0, 30.0, 100.0, 1000.0}) {
     for (unsigned seed = 1; seed <= seeds_to_run(8); ++seed) {
       SimulatedFleetConfig config;

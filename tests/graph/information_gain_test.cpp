@@ -104,7 +104,7 @@ TEST(InformationGain, SessionsOfARobotAreTracksOfTheirOwnAndLostNodesCountAsTheN
   EXPECT_NEAR(gain_of(graph, {kB, 0}, {kB, 4}), of_variance(4 * scalar(kStep)), 1e-4);
 }
 
-TEST(InformationGain, WhatIsUnknownOrAmbiguousOrAbsurdTellsNothing) {
+TEST(InformationGain, UnknownAmbiguousAndAbsurdAlignmentsGainNothing) {
   InformationGain graph;
   graph.add(node(kA, 0));
   graph.add(node(kB, 0));
@@ -197,7 +197,7 @@ TEST_F(WholeNetwork, GivesTheSameAsTheNeighbourhoods) {
 }
 
 /// Two long tracks that are not aligned: no neighbourhood of a few nodes decides.
-TEST(InformationGain, OfTracksThatAreNotAlignedIsLargeHoweverLongTheyAre) {
+TEST(InformationGain, GainBetweenUnalignedTracksIsLargeForAnyLength) {
   InformationGain graph;
   for (std::uint32_t seq = 0; seq < 3000; ++seq) {
     for (const AgentId& agent : {kA, kB, kC}) graph.add(node(agent, seq));

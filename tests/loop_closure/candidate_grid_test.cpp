@@ -116,7 +116,7 @@ TEST_F(CandidateGridTest, APairIsFoundOnceItsOwnNodeCame) {
   EXPECT_EQ(grid_.around({kSelf, 2}), (std::set<NodePair>{first, second, other}));
 }
 
-TEST_F(CandidateGridTest, WhatWasErasedIsNotFoundAgain) {
+TEST_F(CandidateGridTest, ErasedPairsAreNotFound) {
   const GeoPoint position = geo_point_from_degrees(49.0, 8.4, 110.0);
   add_node({kSelf, 0}, {0.0, 0.0, 0.0}, position);
   const NodePair first{{kSelf, 0}, {kPeer, 0}}, second{{kSelf, 0}, {kPeer, 1}},

@@ -23,8 +23,8 @@ graph::Node node_at(const AgentId& agent, std::uint32_t seq, double east_m) {
   return node;
 }
 
-LoopClosureConfig at_once() {
-  LoopClosureConfig config;
+CandidateConfig at_once() {
+  CandidateConfig config;
   config.min_nodes_after = 0;
   return config;
 }
@@ -101,8 +101,8 @@ TEST(CandidateScheduler, are_the_same_on_both_ends_without_talk) {
   EXPECT_TRUE(a.has_good_alignment(kB));
 }
 
-TEST(CandidateScheduler, of_one_place_are_not_repeated_until_the_spacing_is_left) {
-  LoopClosureConfig config = at_once();
+TEST(CandidateScheduler, candidates_of_one_place_are_not_repeated_within_the_spacing) {
+  CandidateConfig config = at_once();
   config.spacing_aligned_m = 20.0;
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
@@ -122,7 +122,7 @@ TEST(CandidateScheduler, of_one_place_are_not_repeated_until_the_spacing_is_left
 }
 
 TEST(CandidateScheduler, that_were_rejected_are_tried_again_later_and_not_for_ever) {
-  LoopClosureConfig config = at_once();
+  CandidateConfig config = at_once();
   CandidateScheduler a(kA, config);
   a.on_node(node_at(kA, 0, 0.0), kStart);
   a.on_node(node_at(kB, 0, 1.0), kStart);
@@ -182,7 +182,7 @@ TEST(CandidateScheduler, keep_the_smaller_pair_when_the_two_ends_chose_different
 
 TEST(CandidateScheduler, end_when_the_peer_has_aligned_the_pair) {
   for (const bool stop : {true, false}) {
-    LoopClosureConfig config = at_once();
+    CandidateConfig config = at_once();
     config.stop_when_peer_aligned = stop;
     CandidateScheduler a(kA, config);
     a.on_heard(kB, kStart);
@@ -196,7 +196,7 @@ TEST(CandidateScheduler, end_when_the_peer_has_aligned_the_pair) {
 }
 
 TEST(CandidateScheduler, take_the_nearest_pair_that_is_found_while_they_wait) {
-  LoopClosureConfig config;
+  CandidateConfig config;
   config.min_nodes_after = 100;
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
@@ -211,7 +211,7 @@ TEST(CandidateScheduler, take_the_nearest_pair_that_is_found_while_they_wait) {
 }
 
 TEST(CandidateScheduler, wait_until_both_robots_have_gone_on) {
-  LoopClosureConfig config;
+  CandidateConfig config;
   config.min_nodes_after = 2;
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
@@ -228,7 +228,7 @@ TEST(CandidateScheduler, wait_until_both_robots_have_gone_on) {
 
 TEST(CandidateScheduler, with_a_silent_robot_do_not_hold_up_those_with_others) {
   const AgentId kC = agent("c");
-  LoopClosureConfig config = at_once();
+  CandidateConfig config = at_once();
   config.max_active = 1;
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
@@ -268,7 +268,7 @@ graph::Node beside_walls(const AgentId& agent, std::uint32_t seq) {
 }
 
 TEST(CandidateScheduler, without_gps_begin_at_places_that_look_alike_and_keep_their_spacing) {
-  LoopClosureConfig config;
+  CandidateConfig config;
   config.min_nodes_after = 0;
   config.max_wait = Duration::zero();
   config.max_active = 100;
@@ -295,7 +295,7 @@ TEST(CandidateScheduler, without_gps_begin_at_places_that_look_alike_and_keep_th
 }
 
 /// a and b were aligned at 0 and at 100 m; a pair at 110 m came first, one at 50 m later.
-std::unique_ptr<CandidateScheduler> with_two_to_choose_from(LoopClosureConfig config) {
+std::unique_ptr<CandidateScheduler> with_two_to_choose_from(CandidateConfig config) {
   config.max_active = 1;
   auto scheduler = std::make_unique<CandidateScheduler>(kA, config);
   CandidateScheduler& a = *scheduler;
@@ -319,7 +319,7 @@ std::unique_ptr<CandidateScheduler> with_two_to_choose_from(LoopClosureConfig co
 }
 
 TEST(CandidateScheduler, ask_first_for_what_would_teach_the_graph_most) {
-  LoopClosureConfig config = at_once();
+  CandidateConfig config = at_once();
   config.spacing_aligned_m = config.spacing_m = 3.0;
   const Stamp later = kStart + std::chrono::seconds(1);
   const auto by_information = with_two_to_choose_from(config);
@@ -331,7 +331,7 @@ TEST(CandidateScheduler, ask_first_for_what_would_teach_the_graph_most) {
 }
 
 TEST(CandidateScheduler, let_go_what_is_known_as_well_already) {
-  LoopClosureConfig config = at_once();
+  CandidateConfig config = at_once();
   config.spacing_aligned_m = config.spacing_m = 3.0;
   const Stamp later = kStart + std::chrono::seconds(1);
   config.min_information = 1.1 * with_two_to_choose_from(config)->tick(later).wanted.front().information;

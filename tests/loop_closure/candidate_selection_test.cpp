@@ -35,7 +35,7 @@ class CandidateSelectionTest : public ::testing::Test {
     return selection_.ready([=](const AgentId&) { return heard; }, now);
   }
 
-  LoopClosureConfig config_;
+  CandidateConfig config_;
   NodeIndex nodes_{kA, 15.0};
   CandidateSet candidates_{config_, nodes_};
   CandidateSelection selection_{config_, nodes_, candidates_};
@@ -71,7 +71,7 @@ TEST_F(CandidateSelectionTest, CandidatesThatFailedForGoodAreVisitedNoMore) {
     candidates_.at(pair(seq)).attempts = seq == 20 ? 1 : config_.max_attempts;
   }
   EXPECT_EQ(ready(kStart), std::vector{pair(20)});
-  EXPECT_EQ(candidates_.all().size(), 1u);
+  EXPECT_EQ(candidates_.open().size(), 1u);
   EXPECT_EQ(ready(kStart), std::vector{pair(20)});
 }
 
@@ -80,7 +80,7 @@ TEST_F(CandidateSelectionTest, CandidatesThatBecameRedundantAreDroppedAndOneOfTw
   offer(16);  // 12 m apart, and 20 m are required after the first good alignment
   candidates_.on_aligned(kB);
   EXPECT_EQ(ready(kStart).size(), 1u);
-  EXPECT_EQ(candidates_.all().size(), 1u);
+  EXPECT_EQ(candidates_.open().size(), 1u);
 }
 
 TEST_F(CandidateSelectionTest, TheCandidateWithTheMostInformationIsNext) {

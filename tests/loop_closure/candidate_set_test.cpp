@@ -30,7 +30,7 @@ class CandidateSetTest : public ::testing::Test {
     return {{agent("a"), seq}, {agent("b"), seq}, Origin::kDescriptor, 1.0, 30.0, score};
   }
 
-  LoopClosureConfig config_;
+  CandidateConfig config_;
   NodeIndex nodes_{agent("a"), 15.0};
   CandidateSet set_{config_, nodes_};
 };
@@ -38,10 +38,10 @@ class CandidateSetTest : public ::testing::Test {
 TEST_F(CandidateSetTest, CandidatesKeepTheSpacingThatGrowsWithTheFirstGoodAlignment) {
   set_.offer(candidate(0, 0, 1.0), kStart);
   set_.offer(candidate(4, 4, 1.0), kStart);  // 8 m on
-  EXPECT_EQ(set_.all().size(), 1u);
+  EXPECT_EQ(set_.open().size(), 1u);
   EXPECT_EQ(set_.redundant_count(), 1u);
   set_.offer(candidate(6, 6, 1.0), kStart);
-  EXPECT_EQ(set_.all().size(), 2u);
+  EXPECT_EQ(set_.open().size(), 2u);
   set_.on_aligned(agent("b"));
   EXPECT_TRUE(set_.redundant(candidate(6, 6, 1.0).pair())) << "12 m, and now 20 m are due";
 }
@@ -49,8 +49,8 @@ TEST_F(CandidateSetTest, CandidatesKeepTheSpacingThatGrowsWithTheFirstGoodAlignm
 TEST_F(CandidateSetTest, ANearerPairTakesTheTurnOfOneThatWaits) {
   set_.offer(candidate(0, 3, 6.0), kStart);
   set_.offer(candidate(1, 2, 2.0), kStart + std::chrono::seconds(5));
-  ASSERT_EQ(set_.all().size(), 1u);
-  const auto& [pair, scheduled] = *set_.all().begin();
+  ASSERT_EQ(set_.open().size(), 1u);
+  const auto& [pair, scheduled] = *set_.open().begin();
   EXPECT_EQ(pair, candidate(1, 2, 2.0).pair());
   EXPECT_EQ(scheduled.found, kStart);
   set_.at(pair).phase = CandidateSet::Phase::kRequested;
@@ -63,8 +63,8 @@ TEST_F(CandidateSetTest, ABetterMatchReplacesAMatchAndNothingElse) {
   set_.offer(match(1, 0.5), kStart);
   EXPECT_TRUE(set_.contains(match(0, 0.6).pair()));
   set_.offer(match(2, 0.7), kStart + std::chrono::seconds(1));
-  ASSERT_EQ(set_.all().size(), 1u);
-  EXPECT_EQ(set_.all().begin()->second.found, kStart + std::chrono::seconds(1));
+  ASSERT_EQ(set_.open().size(), 1u);
+  EXPECT_EQ(set_.open().begin()->second.found, kStart + std::chrono::seconds(1));
   set_.offer(candidate(20, 20, 9.0), kStart);
   set_.offer(match(21, 1.9), kStart);
   EXPECT_TRUE(set_.contains(candidate(20, 20, 9.0).pair()));
@@ -76,24 +76,24 @@ TEST_F(CandidateSetTest, TheOldestGivesWayWhenTooManyWait) {
     EXPECT_EQ(set_.room(), 2u - std::min(k, 2u));
     set_.offer(candidate(10 * k, 10 * k, 1.0), kStart + std::chrono::seconds(10 - k));
   }
-  EXPECT_EQ(set_.crowded_out_count(), 1u);
+  EXPECT_EQ(set_.overflowed_count(), 1u);
   EXPECT_FALSE(set_.contains(candidate(20, 20, 1.0).pair()));
 }
 
 TEST_F(CandidateSetTest, APairWithAnUnknownNodeIsNotAdded) {
   set_.add(candidate(0, 1000, 1.0), kStart, true);
-  EXPECT_TRUE(set_.all().empty());
+  EXPECT_TRUE(set_.open().empty());
 }
 
 TEST_F(CandidateSetTest, ADoneCandidateKeepsOthersAwayAndIsVisitedNoMore) {
   set_.offer(candidate(0, 0, 1.0), kStart);
   set_.conclude(candidate(0, 0, 1.0).pair());
-  EXPECT_TRUE(set_.all().empty());
+  EXPECT_TRUE(set_.open().empty());
   EXPECT_TRUE(set_.contains(candidate(0, 0, 1.0).pair()));
   set_.offer(candidate(4, 4, 1.0), kStart);  // 8 m on
-  EXPECT_TRUE(set_.all().empty());
+  EXPECT_TRUE(set_.open().empty());
   set_.offer(candidate(6, 6, 1.0), kStart);
-  EXPECT_EQ(set_.all().size(), 1u);
+  EXPECT_EQ(set_.open().size(), 1u);
 }
 
 TEST_F(CandidateSetTest, AFailedCandidateIsExhaustedAfterItsAttemptsOrBesideOneThatIsDone) {
@@ -121,10 +121,10 @@ TEST_F(CandidateSetTest, AnAbandonedOneKeepsOthersAwayAndIsVisitedNoMore) {
   set_.at(pair).phase = CandidateSet::Phase::kFailed;
   set_.at(pair).attempts = config_.max_attempts;
   set_.abandon(pair);
-  EXPECT_TRUE(set_.all().empty());
+  EXPECT_TRUE(set_.open().empty());
   EXPECT_TRUE(set_.contains(pair));
   set_.offer(candidate(2, 2, 1.0), kStart);  // 4 m on, and 5 m are due beside one that failed
-  EXPECT_TRUE(set_.all().empty());
+  EXPECT_TRUE(set_.open().empty());
   set_.set_known_to_peer(pair.ours, agent("b"));
   EXPECT_TRUE(set_.find(pair)->known_to_peer);
   set_.conclude(pair);  // the peer had success
@@ -146,16 +146,16 @@ TEST_F(CandidateSetTest, AnAbandonedOneIsBackOnceTheRedundancyIsGone) {
   }
   set_.erase_if([&](const NodePair& pair, const ScheduledCandidate&) { return pair == twice; });
   EXPECT_FALSE(set_.contains(twice));
-  ASSERT_EQ(set_.all().size(), 1u);
+  ASSERT_EQ(set_.open().size(), 1u);
   EXPECT_TRUE(set_.retryable(once, set_.at(once)));
   set_.abandon(once);
   set_.on_removed_node();
-  EXPECT_EQ(set_.all().size(), 1u) << "and not the one that had its attempts";
+  EXPECT_EQ(set_.open().size(), 1u) << "and not the one that had its attempts";
 }
 
 /// After a start alignments come before their nodes.
 TEST(CandidateSetOrder, ACandidateIsFoundByItsPlaceOnceItsNodesAreThere) {
-  LoopClosureConfig config;
+  CandidateConfig config;
   NodeIndex nodes(agent("a"), 15.0);
   CandidateSet set(config, nodes);
   const auto add = [&](const char* name, std::uint32_t seq, bool located) {

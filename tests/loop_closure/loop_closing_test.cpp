@@ -95,7 +95,7 @@ class LoopClosingWithAPeer : public LoopClosingTest {
   }
   /// Both nodes become known, and the peer's cloud is requested and received.
   void receive(const Bytes& cloud) {
-    exchange::LoopCloser& scheduler = closing_.scheduler();
+    exchange::CloudClient& scheduler = closing_.scheduler();
     scheduler.on_heard(kB, kStart);
     scheduler.on_node(ours_, kStart);
     scheduler.on_node(theirs_, kStart);

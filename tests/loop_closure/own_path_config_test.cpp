@@ -19,16 +19,15 @@ TEST(OwnPathConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
 TEST(OwnPathConfig, TheReachIsPositiveAndThePathTwiceAsLong) {
   const Config config;
   expect_accepted(config, &Config::reach, {1e-3, 0.5 * config.min_path});
-  expect_refused(config, &Config::reach, {0.0, -1.0, kNaN<double>, kInfinity<double>}, "loop_closures.reach");
-  expect_refused(config, &Config::reach, {0.5 * config.min_path + 0.1}, "loop_closures.min_path");
+  expect_refused(config, &Config::reach, {0.0, -1.0, kNaN<double>, kInfinity<double>}, "own_path.reach");
+  expect_refused(config, &Config::reach, {0.5 * config.min_path + 0.1}, "own_path.min_path");
   expect_refused(config, &Config::min_path, {2.0 * config.reach - 0.1, kNaN<double>, kInfinity<double>},
-                 "loop_closures.min_path");
+                 "own_path.min_path");
 }
 
 TEST(OwnPathConfig, TheSpacingIsFiniteAndNotNegative) {
   expect_accepted(Config{}, &Config::spacing, {0.0});
-  expect_refused(Config{}, &Config::spacing, {-0.1, kNaN<double>, kInfinity<double>},
-                 "loop_closures.spacing");
+  expect_refused(Config{}, &Config::spacing, {-0.1, kNaN<double>, kInfinity<double>}, "own_path.spacing");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(RegisteredAlignment, UnlikelyAlternativesAreNotSent) {
 
 /// Two lanes that are 42 m apart see the rows between them from two sides, and all their alignments err
 /// alike.
-TEST(RegisteredAlignment, OfLanesFarApartSaysLittleOfHowFarTheyAre) {
+TEST(RegisteredAlignment, DistanceOfLanesFarApartIsUncertain) {
   const AgentId r1 = AgentId::parse("r1").value();
   registration::RegistrationResult result;
   result.verdict = registration::Verdict::accepted;

@@ -21,7 +21,7 @@ graph::Node node_at(const NodeId& id, double x, double variance) {
   return node;
 }
 
-TEST(RegistrationPrior, OfPositionsIsTheDifferenceOfBothGlobalPoses) {
+TEST(RegistrationPrior, PriorOfPositionsIsTheDifferenceOfBothGlobalPoses) {
   graph::Node a = node_at(kA, 0.0, 1.0);
   const graph::Node b = node_at(kB, 10.0, 3.0);
   a.G->q_enu_base = Eigen::Quaterniond(rotation_from_rpy(0, 0, 1.5707963267948966));
@@ -34,7 +34,7 @@ TEST(RegistrationPrior, OfPositionsIsTheDifferenceOfBothGlobalPoses) {
   EXPECT_TRUE(same->T_target_source.matrix() == prior.T_target_source.matrix());
 }
 
-TEST(RegistrationPrior, OfATransformIsWiderThanThatOfOdometry) {
+TEST(RegistrationPrior, PriorOfATransformIsWiderThanThatOfOdometry) {
   LoopCandidate candidate{kA, kB, Origin::kTransform};
   candidate.T_target_source = UncertainPose{Pose::Identity(), 1e-4 * Matrix6d::Identity()};
   const graph::Node a = node_at(kA, 0.0, 1.0), b = node_at(kB, 10.0, 1.0);

@@ -39,7 +39,7 @@ void locate(graph::Node& node, const Eigen::Vector3d& p_enu, double sigma) {
 
 class SessionCandidatesTest : public ::testing::Test {
  protected:
-  void begin(const LoopClosureConfig& config = {}) {
+  void begin(const CandidateConfig& config = {}) {
     sessions_.emplace(config);
     std::vector<const graph::Node*> earlier;
     for (const graph::Node& node : first_) earlier.push_back(&node);

@@ -41,8 +41,8 @@ std::vector<graph::Alignment> ties(std::uint32_t first, const Pose& T_site_other
   return used;
 }
 
-LoopClosureConfig at_once() {
-  LoopClosureConfig config;
+CandidateConfig at_once() {
+  CandidateConfig config;
   config.min_nodes_after = 0;
   config.max_wait = Duration::zero();
   config.max_active = 100;
@@ -134,7 +134,7 @@ TEST(TransformCandidates, BothEndsChooseTheSamePairs) {
   EXPECT_EQ(of_a, of_b);
 }
 
-TEST(TransformCandidates, WhereGTellsItIsG) {
+TEST(TransformCandidates, UsesGWhereBothNodesHaveIt) {
   CandidateScheduler a(kA, at_once());
   a.on_heard(kB, kStart);
   for (std::uint32_t seq = 0; seq < 4; ++seq) {
@@ -156,7 +156,7 @@ TEST(TransformCandidates, WhereGTellsItIsG) {
 }
 
 TEST(TransformCandidates, TransformsThatFailAgainAndAgainAreDistrustedUntilOneIsRight) {
-  LoopClosureConfig config = at_once();
+  CandidateConfig config = at_once();
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
   add_nodes(a, 0, 60);
@@ -221,8 +221,8 @@ TEST(TransformCandidates, BehindAGapAreFoundWhenTheMissingNodeComes) {
   EXPECT_TRUE(std::ranges::any_of(wanted(a), beyond));
 }
 
-TEST(TransformCandidates, WhatLooksAlikeButIsElsewhereIsNotTried) {
-  LoopClosureConfig config = at_once();
+TEST(TransformCandidates, DescriptorMatchesElsewhereAreNotTried) {
+  CandidateConfig config = at_once();
   config.min_nodes_after = 1000;
   config.max_wait = std::chrono::hours(1);
   CandidateScheduler a(kA, config);

@@ -31,7 +31,7 @@ TEST(RowSet, RowKIsBitKModulo8OfByteKDividedBy8) {
   EXPECT_EQ(RowSet(Bytes{1, 2}), rows);
 }
 
-TEST(RowSet, OfAnotherMissionIsCutAndFilledUp) {
+TEST(RowSet, BytesOfAnotherLengthAreCutOrFilled) {
   const RowSet cut(11, Bytes{0xff, 0xff, 0xff});
   EXPECT_EQ(cut.bytes(), (Bytes{0xff, 0x07}));
   EXPECT_EQ(cut.count(), 11u);

@@ -32,7 +32,7 @@ TEST(Routing, SenderAndRecipientAreThoseThatTheMessageNames) {
   EXPECT_EQ(sender_of(node), std::nullopt) << "any agent may pass it on";
 }
 
-TEST(Routing, WhatGoesToAllOverTheRadioMayGoOneByOneExceptOrders) {
+TEST(Routing, BroadcastsExceptOrdersMayBeSentOneByOne) {
   EXPECT_TRUE(may_go_one_by_one(graph::Node{}));
   EXPECT_TRUE(may_go_one_by_one(MissionReport{}));
   EXPECT_FALSE(may_go_one_by_one(Hold{})) << "operators hear orders too";

@@ -64,7 +64,7 @@ class LostMemory : public ::testing::Test {
   std::array<Pose, kScans / kStay> places_;
 };
 
-TEST_F(LostMemory, OfARobotThatIsCarriedAboutTheMapIsNoLargerThanThatOfADrive) {
+TEST_F(LostMemory, MapOfACarriedRobotIsNoLargerThanThatOfADrive) {
   const Outcome drive = map_of_a_drive();
   EXPECT_EQ(drive.counters.lost, 0u);
   const Outcome carried =

@@ -73,7 +73,7 @@ TEST(MotionCovariance, OverAChainOfNodesWhatWasLostSums) {
         motion.add(estimate, growth, noise);
       }
       const Pose T_previous_this = previous.inverse() * estimate;
-      lost = compose(lost, {T_previous_this, motion.lost_since_reference()});
+      lost = compose(lost, {T_previous_this, motion.drift_since_reference()});
       all = compose(all, {T_previous_this, motion.since_reference()});
       motion.restart();
     }
@@ -94,7 +94,7 @@ TEST(MotionCovariance, StandingAtTheReferenceIsCertain) {
   EXPECT_TRUE(motion.since_reference().isZero());
   motion.add(Pose::Identity(), Matrix6d::Identity(), Matrix6d::Identity());
   EXPECT_TRUE(motion.since_reference().isApprox(3.0 * Matrix6d::Identity()));
-  EXPECT_TRUE(motion.lost_since_reference().isApprox(Matrix6d::Identity()));
+  EXPECT_TRUE(motion.drift_since_reference().isApprox(Matrix6d::Identity()));
   motion.restart();
   EXPECT_TRUE(motion.since_reference().isZero());
 }

@@ -47,7 +47,7 @@ TEST(PoseUncertainty, PointsTellThePoseAsWellAsTheyFitTheirSurfaces) {
   EXPECT_NEAR(noise_of(uncertainty, {scan})[0], 4e-4, 1e-6);
 }
 
-TEST(PoseUncertainty, OfALostScanOnlyThePriorIsKnown) {
+TEST(PoseUncertainty, LostScanHasThePriorsUncertainty) {
   PoseUncertainty uncertainty = started();
   const MatchResult scan = match(0.01, 0.5);
   EXPECT_NEAR(noise_of(uncertainty, {.match = scan, .lost = true})[2], 0.25, 1e-12);
@@ -252,7 +252,7 @@ TEST(PoseUncertainty, WeakScansOfAStrangeMotionMaySlide) {
   EXPECT_LT(sideways_after_20_m(0.1), 0.1);
 }
 
-TEST(PoseUncertainty, WhatCannotBeSolvedIsNotLearnedFrom) {
+TEST(PoseUncertainty, UnsolvableScansAreNotUsedForTheVariance) {
   PoseUncertainty uncertainty = started(), untouched = started();
   MatchResult broken = match(0.1, 0.1);
   broken.prior_gradient.setConstant(std::nan(""));

@@ -8,7 +8,7 @@
 
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
-#include "fleetmap/odometry/way_check.hpp"
+#include "fleetmap/odometry/trajectory_check.hpp"
 
 namespace fleetmap::testing {
 namespace {
@@ -61,7 +61,7 @@ class ErrorStatistics {
                    (estimate_[from].inverse() * estimate_.back()));
   }
 
-  odometry::WayCheck check_;
+  odometry::TrajectoryCheck check_;
   odometry::MotionCovariance piece_;
   std::vector<Pose> estimate_, truth_;
   double sum_ = 0.0, worst_ = 0.0;

@@ -18,8 +18,8 @@ const Vector3f kUp = Vector3f::UnitZ(), kNoSide = Vector3f::Zero();
 /// Variance of ten places 0.1 m apart, as those of ground() and line() within one window are.
 constexpr double kSpread = 0.01 * 99.0 / 12.0;
 
-SurfaceGrid planes(double max_thickness = 0.08, double bend = 0.0) {
-  return SurfaceGrid(kStep, Seeks::kPlanes, max_thickness, bend);
+SurfaceGrid planes(double max_thickness = 0.08, double unevenness = 0.0) {
+  return SurfaceGrid(kStep, Seeks::kPlanes, max_thickness, unevenness);
 }
 
 /// 2 m x 2 m around the origin at `height`, every other point higher or lower by `roughness`. The window at
@@ -55,7 +55,7 @@ TEST(SurfaceGrid, FitsAPlaneWithItsThicknessAndTheUncertaintyOfItsNormal) {
   EXPECT_LT((surface->mean - Vector3d(0, 0, 0.1)).norm(), 1e-5);
   EXPECT_GT(surface->direction.z(), 0.9999f);
   EXPECT_EQ(surface->count, 100.0f);
-  EXPECT_NEAR(surface->thickness, 0.02 * 0.02 + 0.1 * 0.1, 1e-6) << "as rough as it is and may bend";
+  EXPECT_NEAR(surface->thickness, 0.02 * 0.02 + 0.1 * 0.1, 1e-6) << "as rough as it is and may unevenness";
   EXPECT_NEAR(surface->angle_variance, 0.02 * 0.02 / (100.0 * kSpread), 1e-7);
 }
 
@@ -70,7 +70,7 @@ TEST(SurfaceGrid, ANormalIsOnTheSideFromWhichItWasSeen) {
   }
 }
 
-TEST(SurfaceGrid, WhatIsNeitherThinNorWideEnoughIsNoPlane) {
+TEST(SurfaceGrid, ThickOrNarrowSurfacesAreNoPlanes) {
   const auto shape_of = [](const std::vector<ObservedPoint>& points) {
     SurfaceGrid grid = planes(0.03);
     grid.add(points);

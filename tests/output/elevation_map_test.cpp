@@ -45,8 +45,8 @@ std::map<NodeId, Pose> add_slope(store::Store& store) {
 
 class ElevationMap : public ::testing::Test {
  protected:
-  Result<WrittenElevation> write(const CrsChoice& choice, const ElevationConfig& config = {}) {
-    const auto crs = MapCrs::of(choice, {testing::kSceneOrigin, true}, std::nullopt);
+  Result<WrittenElevation> write(const CrsRequest& request, const ElevationConfig& config = {}) {
+    const auto crs = MapCrs::of(request, {testing::kSceneOrigin, true}, std::nullopt);
     return write_elevation(store_, T_map_node_, {.voxel_m = 0.05}, crs.value(), config, out_, "fleetmap");
   }
   testing::TemporaryFolder folder_;
@@ -85,7 +85,7 @@ RasterFile read_raster(const std::filesystem::path& file) {
 }
 
 TEST_F(ElevationMap, HeightsAreThoseOfTheWorldWithinTheNoise) {
-  const auto written = write({CrsChoice::Kind::enu, {}});
+  const auto written = write({CrsRequest::Kind::enu, {}});
   ASSERT_TRUE(written) << written.error().message;
   const RasterFile ground = read_raster(out_ / "ground.tif"), surface = read_raster(out_ / "surface.tif");
   ASSERT_EQ(ground.width, 60);

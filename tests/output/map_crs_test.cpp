@@ -18,24 +18,24 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using Kind = CrsChoice::Kind;
+using Kind = CrsRequest::Kind;
 
 const MapPlace kSpain{geo_point_from_degrees(39.0, -0.02, 600.0), true};  // 1.7 km west of zone 31
 const MapPlace kNowhere{{}, false};
 
 TEST(ParseCrs, ReadsWhatIsOfferedInAnyCase) {
-  EXPECT_EQ(*parse_crs("utm"), CrsChoice{});
+  EXPECT_EQ(*parse_crs("utm"), CrsRequest{});
   EXPECT_EQ(parse_crs("ENU")->kind, Kind::enu);
-  EXPECT_EQ(*parse_crs("EPSG:32733"), (CrsChoice{Kind::zone, {33, false}}));
-  EXPECT_EQ(*parse_crs("epsg:32601"), (CrsChoice{Kind::zone, {1, true}}));
+  EXPECT_EQ(*parse_crs("EPSG:32733"), (CrsRequest{Kind::zone, {33, false}}));
+  EXPECT_EQ(*parse_crs("epsg:32601"), (CrsRequest{Kind::zone, {1, true}}));
 }
 
 TEST(ParseCrs, RefusesTheRestWithWhatIsOffered) {
   for (const char* wrong : {"", "EPSG:", "EPSG:25830", "EPSG:4326", "EPSG:32600", "EPSG:32630x", "EPSG:-1",
                             "EPSG:99999999999999", "32630", "wgs84"}) {
-    const auto choice = parse_crs(wrong);
-    ASSERT_FALSE(choice) << wrong;
-    EXPECT_THAT(choice.error().message, AllOf(HasSubstr(wrong), HasSubstr("EPSG:32601"), HasSubstr("enu")));
+    const auto request = parse_crs(wrong);
+    ASSERT_FALSE(request) << wrong;
+    EXPECT_THAT(request.error().message, AllOf(HasSubstr(wrong), HasSubstr("EPSG:32601"), HasSubstr("enu")));
   }
 }
 
@@ -105,8 +105,8 @@ TEST(MapCrs, EnuIsTheFrameOfTheMapAndNamesItsOrigin) {
 }
 
 TEST(MapCrs, AMapWithoutAPlaceHasOnlyItsOwnFrame) {
-  for (const CrsChoice& choice : {CrsChoice{}, CrsChoice{Kind::zone, {31, true}}}) {
-    const auto crs = MapCrs::of(choice, kNowhere, std::nullopt);
+  for (const CrsRequest& request : {CrsRequest{}, CrsRequest{Kind::zone, {31, true}}}) {
+    const auto crs = MapCrs::of(request, kNowhere, std::nullopt);
     ASSERT_FALSE(crs);
     EXPECT_THAT(crs.error().message, AllOf(HasSubstr("GPS"), HasSubstr("--crs enu")));
   }

@@ -11,7 +11,7 @@
 namespace fleetmap::output {
 namespace {
 
-TEST(MapFiles, WhatAnInterruptedMergeLeftIsRemovedAndNothingElse) {
+TEST(MapFiles, FilesOfAnInterruptedMergeAloneAreRemoved) {
   const testing::TemporaryFolder folder;
   const std::set<std::string> kept{"map.ply", "map-r2.ply", "store.db", "report.json.part"};
   std::set<std::string> names = kept;

@@ -26,7 +26,7 @@ class MapPartsTest : public ::testing::Test {
   graph::Placement placement_;
 };
 
-TEST_F(MapPartsTest, WhatNobodyCanLayOntoTheMapIsAPartOfItsOwn) {
+TEST_F(MapPartsTest, UnjoinedComponentsAreApart) {
   add("r1", 0, 3, true);
   add("r2", 0, 9, false);
   add("r3", 7, 2, false);

@@ -48,7 +48,7 @@ TEST(RegistrationsFile, ThePartBeforeIsReadFirst) {
   EXPECT_EQ(read.rows[1].target, kSource);
 }
 
-TEST(RegistrationsFile, WhatIsWrittenIsReadAgain) {
+TEST(RegistrationsFile, WrittenContentIsReadAgain) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / kRegistrationsFile;
   const std::string reason = "only 0.28, at least \"0.45\"";

@@ -82,7 +82,7 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
   EXPECT_EQ(again.cloud.size(), results->map.points);
 }
 
-TEST_F(ResultsTest, WhatNobodyCanPlaceIsAFileOfItsOwn) {
+TEST_F(ResultsTest, UnplacedComponentsHaveFilesOfTheirOwn) {
   store::Store store = open();
   for (int k = 0; k < 4; ++k) add_node(store, 3.0 * k);
   for (int k = 0; k < 3; ++k) add_node(store, 3.0 * k, 5, false);
@@ -98,7 +98,7 @@ TEST_F(ResultsTest, WhatNobodyCanPlaceIsAFileOfItsOwn) {
   EXPECT_GT(part->size(), 50u);
 }
 
-TEST_F(ResultsTest, WhatAnAgentThatWasKilledHeldBecomesTheMapItWouldHaveMade) {
+TEST_F(ResultsTest, StoreOfAKilledAgentGivesTheSameMap) {
   ResultsConfig config = this->config();
   config.recipe.map.voxel_m = 0.25;
   config.recipe.placement.method = graph::PlacementMethod::paper;
@@ -149,7 +149,7 @@ TEST_F(ResultsTest, ARobotInQuarantineIsShown) {
   config.recipe.placement.method = graph::PlacementMethod::graph;
   const auto results = write_results(store, config);
   ASSERT_TRUE(results) << results.error().message;
-  for (const auto& [agent, credit] : results->placement.credits)
+  for (const auto& [agent, credit] : results->placement.alignment_stats)
     EXPECT_EQ(credit.quarantined, agent == faulty) << agent.str();
 
   std::ifstream file(folder_.path() / "alignments.csv");

@@ -112,7 +112,7 @@ TEST_F(Tables, ANodesLineTellsWhereItIsByOdometryGpsAndPlacement) {
   EXPECT_NEAR(number(rows[0], "sigma_yaw_deg"), 5.73, 0.06);
 }
 
-TEST_F(Tables, WhatANodeLacksIsLeftEmpty) {
+TEST_F(Tables, MissingValuesOfANodeAreEmpty) {
   put_node("r1", 0, std::nullopt);
   const std::vector<Row> rows = nodes({});
   ASSERT_THAT(rows, SizeIs(1));
@@ -152,7 +152,7 @@ TEST_F(Tables, AnAlignmentHasALineForEachModeAndTheUsedOneIsMarked) {
   EXPECT_EQ(rows[2].at("status"), "against GPS");
 }
 
-TEST_F(Tables, OfThePapersPlacementOnlyUsedOnesAreKnown) {
+TEST_F(Tables, PaperPlacementKnowsUsedAlignmentsAlone) {
   const NodeId a = put_node("r1", 0, std::nullopt), b = put_node("r2", 0, std::nullopt);
   const graph::Alignment used = testing::make_alignment(a, b, a.agent, 0);
   ASSERT_TRUE(store_.put_alignment(used));
@@ -167,7 +167,7 @@ TEST_F(Tables, OfThePapersPlacementOnlyUsedOnesAreKnown) {
   EXPECT_EQ(rows[1].at("status"), "");
 }
 
-TEST_F(Tables, OfAnEmptyStoreHaveTheirNamesAlone) {
+TEST_F(Tables, EmptyStoreHasColumnNamesAlone) {
   EXPECT_THAT(alignments({}), IsEmpty());
   EXPECT_THAT(nodes({}), IsEmpty());
   const auto none = folder_.path() / "none" / "nodes.csv";

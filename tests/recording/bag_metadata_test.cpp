@@ -29,7 +29,7 @@ const BagMetadata kDrive{.storage = "mcap",
                          .first_ns = 1'700'000'000'000'000'005,
                          .last_ns = 1'700'000'003'500'000'000};
 
-TEST(BagMetadata, WhatIsWrittenIsRead) {
+TEST(BagMetadata, WrittenContentIsRead) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_metadata(folder.path(), kDrive));
   const auto read = read_metadata(folder.path());
@@ -65,7 +65,7 @@ TEST(BagMetadata, WritesWhatRosbag2OfHumbleWants) {
   EXPECT_EQ(files, 1u) << "the draft is gone";
 }
 
-TEST(BagMetadata, OfUnknownContentIsTakenAsFarAsItGoes) {
+TEST(BagMetadata, UnknownContentIsReadAsFarAsPossible) {
   const TemporaryFolder folder;
   folder.write(kMetadataFile, "rosbag2_bagfile_information: {version: 9, compression_mode: [x]}\n");
   const auto metadata = read_metadata(folder.path());

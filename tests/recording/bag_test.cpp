@@ -167,7 +167,7 @@ TEST(Bag, ATruncatedFileIsAnErrorThatSaysSo) {
   EXPECT_THAT(failure_of(folder.path() / "b"), HasSubstr("no such table: topics"));
 }
 
-TEST(Bag, WhatIsNotReadSaysWhatToDo) {
+TEST(Bag, UnreadableBagsNameTheRemedy) {
   const TemporaryFolder folder;
   folder.write("other_storage/metadata.yaml", "rosbag2_bagfile_information:\n  storage_identifier: rocks\n");
   EXPECT_THAT(refusal(folder.path() / "other_storage"),

@@ -71,7 +71,7 @@ TEST(BagTopics, OurOwnNamesNeedNoChoice) {
 }
 
 /// Its map, its fix and its odometry are no sensors, however few others there are.
-TEST(BagTopics, WhatTheProgramPublishedIsNoInput) {
+TEST(BagTopics, TopicsOfTheProgramAreNoInput) {
   const TemporaryFolder folder;
   const auto bag = folder.path() / "b";
   write_bag(bag, {{"/velodyne_points", kCloud},

@@ -35,7 +35,7 @@ void fill(const fs::path& file) {
   EXPECT_EQ(database->last_insert_id(), 2);
 }
 
-TEST(RecordingDatabase, WhatIsBoundIsReadBack) {
+TEST(RecordingDatabase, BoundValuesAreReadBack) {
   const TemporaryFolder folder;
   // Characters that mean something in SQLite's URIs.
   const fs::path file = folder.path() / "drive 50%20?#1.db3";

@@ -77,7 +77,7 @@ TEST(FileBytes, DamageIsTold) {
   EXPECT_THAT(error_of(folder.path()), HasSubstr(folder.path().string() + ": cannot be read"));
 }
 
-TEST(FileBytes, WhatIsLargerThanAnyScanIsNotEvenRead) {
+TEST(FileBytes, FileLargerThanAnyScanIsNotRead) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.bin", "");
   std::filesystem::resize_file(file, (256u << 20) + 1);  // a hole: no disk is needed

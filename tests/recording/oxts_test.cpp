@@ -52,7 +52,7 @@ TEST(Oxts, YawCountsFromEastCounterClockwise) {
       << "tilt is known better";
 }
 
-TEST(Oxts, WhatIsMissingOrNoNumberIsNamedByItsPlace) {
+TEST(Oxts, MissingAndInvalidNumbersAreNamedByPosition) {
   EXPECT_THAT(error_of("49 8.4 110"), ::testing::HasSubstr("0.txt: number 4 of 30 is missing or not finite"));
   EXPECT_THAT(error_of(""), ::testing::HasSubstr("number 1 of 30"));
   EXPECT_THAT(error_of(record("nan")), ::testing::HasSubstr("number 1 of 30"));

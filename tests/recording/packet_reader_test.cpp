@@ -171,7 +171,7 @@ TEST(PacketReader, SeveralDevicesNeedAChoice) {
   EXPECT_THAT(refusal(folder.path() / "b"), HasSubstr("choose one with recording.topics.points"));
 }
 
-TEST(PacketReader, WhatIsNoPacketIsCountedByItsReason) {
+TEST(PacketReader, RefusedPacketsAreCountedByReason) {
   const TemporaryFolder folder;
   auto scans = messages(3);
   scans[1].packets[3].data[0] = 0;        // flag

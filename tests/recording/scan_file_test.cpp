@@ -83,7 +83,7 @@ TEST_F(ScanFile, APcdNeedsNeitherIntensityNorCounts) {
   EXPECT_EQ(more.scan.points.size(), 2u) << "POINTS counts, not the length of the file";
 }
 
-TEST_F(ScanFile, WhatIsWrongWithAPcdIsNamed) {
+TEST_F(ScanFile, ErrorsOfAPcdAreNamed) {
   const auto pcd = [](const std::string& fields, const std::string& sizes, const std::string& types,
                       const std::string& rest) {
     return "FIELDS " + fields + "\nSIZE " + sizes + "\nTYPE " + types + "\nPOINTS 2\n" + rest;

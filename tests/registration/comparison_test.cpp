@@ -97,7 +97,7 @@ TEST(Comparison, FloorsAgreeAtAnyPose) {
   EXPECT_LT(wrong.agreement, 0.2);
 }
 
-TEST(Comparison, WhatTheOtherDidNotSeeDoesNotCount) {
+TEST(Comparison, UnobservedPointsDoNotCount) {
   const TwoScans scans;
   const Fit apart = scans.fit_at(shift(500, 0));
   EXPECT_EQ(apart.overlapping, 0u);

@@ -44,7 +44,7 @@ TEST(DriftModel, AMapFromOneStopDoesNotBend) {
 }
 
 /// The share of a patch counts that was seen from beyond the step.
-TEST(DriftModel, WhatWasSeenFromBeyondAStepShiftsWithIt) {
+TEST(DriftModel, PointsBeyondAStepShiftWithIt) {
   const DriftModel model(stops_at({{0.0, kNone}, {100.0, kShift}}), Matrix3d::Identity());
   const double near = 1.0 / (1.0 + 100.0 * 100.0 / 36.0), share = 1.0 / (1.0 + near);
   EXPECT_NEAR(covariance(model, {100, 0, 0})(0, 0), share * share * 0.04, 1e-12);

@@ -34,7 +34,7 @@ PreparedCloud prepared(const cloud::PointCloud& cloud, const RegistrationConfig&
   return PreparedCloud(cloud, Vector3d::UnitZ(), config);
 }
 
-TEST(PreparedCloud, OfNothingIsEmpty) {
+TEST(PreparedCloud, EmptyInputGivesEmptyOutput) {
   EXPECT_EQ(PreparedCloud().size(), 0u);
   EXPECT_EQ(PreparedCloud().data(), nullptr);
   const PreparedCloud empty = prepared({});

@@ -108,7 +108,7 @@ TEST(RobotPairs, OnASolarFarmNoneIsAcceptedWronglyAndTheRightPoseIsAmongTheModes
 
 /// In the middle of rows without an end, a gap, a road or a hill in sight, places a table apart look the
 /// same.
-TEST(RobotPairs, WhereRowsRepeatNoneIsAcceptedWrongly) {
+TEST(RobotPairs, NoneIsAcceptedWronglyBetweenRepeatedRows) {
   int accepted = 0;
   const unsigned seeds = seeds_to_run(2);
   for (unsigned seed = 1; seed <= seeds; ++seed) {

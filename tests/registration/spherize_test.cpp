@@ -40,7 +40,7 @@ TEST(Spherize, GivesABallWithoutGroundWithinTheBudget) {
   EXPECT_LT(static_cast<double>(low), 0.02 * static_cast<double>(result->encoded));
 }
 
-TEST(Spherize, OfPartsIsThatOfTheWhole) {
+TEST(Spherize, SpherizingPartsEqualsSpherizingTheWhole) {
   const PointCloud map = dense_map();
   const Pose T = make_pose(rotation_from_rpy(0.0, 0.0, 0.5), Eigen::Vector3d(20, -7, 0.3));
   std::vector<std::size_t> first(map.size() / 3), second;

@@ -69,7 +69,7 @@ TEST(SurfelIcp, LaysPointsOnTheSurfels) {
   EXPECT_LT(error_of(result).tail<3>().norm(), 0.0001);
 }
 
-/// Level plates tell height, roll and pitch. Of the rest nothing is known and nothing is changed.
+/// Level plates constrain height, roll and pitch. The other directions are unconstrained and stay unchanged.
 TEST(SurfelIcp, StepsInNoDirectionThatNothingConstrains) {
   const Pose truth = make_pose(rotation_from_rpy(0, 0, 0.3), Vector3d(1.5, -0.8, 0));
   const Pose start = make_pose(rotation_from_rpy(0.004, -0.003, 0.31), Vector3d(1.6, -0.9, 0.05));

@@ -167,7 +167,7 @@ TEST(Ros1, TfMessageWithNamesOfAnyLength) {
   }
 }
 
-TEST(Ros1, WhatIsNoSuchMessageIsRefused) {
+TEST(Ros1, InvalidMessagesAreRefused) {
   const Bytes whole = imu("imu");
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_FALSE(cdr_from_ros1(kImu, ByteView(whole).first(size))) << size;

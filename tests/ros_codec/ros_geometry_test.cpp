@@ -5,7 +5,7 @@
 namespace fleetmap::ros_codec {
 namespace {
 
-TEST(RosGeometry, WhatGoesOutComesBack) {
+TEST(RosGeometry, ConversionsAreInverse) {
   const Eigen::Vector3d v(1.0, -2.0, 3.0);
   EXPECT_EQ(from_ros(to_ros(v)), v);
   const Eigen::Quaterniond q(rotation_from_rpy(0.1, -0.2, 0.3));

@@ -37,10 +37,10 @@ TEST(FleetMessages, ThePathIsTheOwnNodesInTheOrderOfTime) {
   fleet.view.placement.T_enu_node.erase(node_id("r1", 1));
   const ros_codec::PathMsg path = path_message(fleet.view);
   EXPECT_EQ(path.frame, "map");
-  ASSERT_EQ(path.places.size(), 2u) << "one of three has no place";
-  EXPECT_EQ(path.places[0].stamp, stamp_from_ns(98));
-  EXPECT_EQ(path.places[0].T_frame_base.translation(), Eigen::Vector3d(8.0, 0.0, 0.0));
-  EXPECT_EQ(path.places[1].T_frame_base.translation(), Eigen::Vector3d(0.0, 0.0, 0.0));
+  ASSERT_EQ(path.poses.size(), 2u) << "one of three has no pose";
+  EXPECT_EQ(path.poses[0].stamp, stamp_from_ns(98));
+  EXPECT_EQ(path.poses[0].T_frame_base.translation(), Eigen::Vector3d(8.0, 0.0, 0.0));
+  EXPECT_EQ(path.poses[1].T_frame_base.translation(), Eigen::Vector3d(0.0, 0.0, 0.0));
 }
 
 TEST(FleetMessages, MarkersShowTracksAlignmentsByVerdictAndTheOtherRobots) {
@@ -84,8 +84,8 @@ TEST(FleetMessages, AViewIsWhatWasPlaced) {
   fleet.nodes = two_robots().view.nodes;
   fleet.placement = two_robots().view.placement;
   const monitor::FleetView view = view_of(fleet, node_id("r2", 0).agent);
-  EXPECT_EQ(path_message(view).places.size(), 3u);
-  EXPECT_EQ(path_message(view).places[0].T_frame_base.translation().x(), 50.0);
+  EXPECT_EQ(path_message(view).poses.size(), 3u);
+  EXPECT_EQ(path_message(view).poses[0].T_frame_base.translation().x(), 50.0);
 }
 
 }  // namespace

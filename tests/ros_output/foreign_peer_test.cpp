@@ -203,7 +203,7 @@ TEST_F(ForeignPeer, HearsThePoseTheFixAndTheDiagnostics) {
   }));
 }
 
-TEST_F(ForeignPeer, WhoComesLaterHearsMountsPathAndMarkers) {
+TEST_F(ForeignPeer, LateSubscribersReceiveMountsPathAndMarkers) {
   publish_at_once(
       topics::tf_static(),
       ros_codec::encode(std::vector<sensor::FrameTransform>{{"base_link", "velodyne", {0.1, 0.2, 0.3}, {}}}));
@@ -247,7 +247,7 @@ TEST_F(ForeignPeer, WhoComesLaterHearsMountsPathAndMarkers) {
   }));
 }
 
-TEST_F(ForeignPeer, WhoComesLaterHearsTheMapAndItsSubmaps) {
+TEST_F(ForeignPeer, LateSubscribersReceiveTheMapAndItsSubmaps) {
   ros_codec::MapPoints map{kStamp, "map", {}};
   for (int k = 0; k < 20'000; ++k) map.points.push_back({{static_cast<float>(k), 2.0f, 3.0f}, 0.5f, 7});
   publish_at_once(topics::map(), ros_codec::encode(map));

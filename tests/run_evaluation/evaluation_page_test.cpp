@@ -34,7 +34,7 @@ AgentFolder driven(const std::string& name, double off) {
   return agent;
 }
 
-TEST(EvaluationPage, OfARunWithoutTruthShowsWhatThereIs) {
+TEST(EvaluationPage, PageOfARunWithoutTruthShowsTheRest) {
   json evaluation = minimal();
   evaluation["notes"] = {"no true surface & no <truth>"};
   const std::string page = page_of(evaluation);

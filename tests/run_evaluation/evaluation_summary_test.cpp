@@ -33,7 +33,8 @@ TEST(EvaluationSummary, NamesWhatWasMeasured) {
   EXPECT_THAT(
       summary(evaluation),
       AllOf(HasSubstr("map: 1200 points, 40.5 m^2, 33.25 points within 2.0 m"),
-            HasSubstr("fleet: joint ATE 0.011 m (between robots 0.012, bends 0.013), unaligned 0.014 m"),
+            HasSubstr(
+                "fleet: joint ATE 0.011 m (between robots 0.012, within robots 0.013), unaligned 0.014 m"),
             HasSubstr("r1: ATE 0.25 m, aligned 0.125 m, over 80 m"), HasSubstr("note: no truth of r2"),
             HasSubstr("evaluation: out/evaluation.html"), Not(HasSubstr("RMSE"))));
 }

@@ -143,7 +143,7 @@ TEST_F(Evaluation, ItsFilesHoldTheNumbersAndTheReportKeepsItsOwn) {
   EXPECT_FALSE(fs::exists(folder_.path() / "report.json")) << "none is made where there was none";
 }
 
-TEST_F(Evaluation, WhatCannotBeMeasuredAtAllIsAnError) {
+TEST_F(Evaluation, UnmeasurableRunIsAnError) {
   EXPECT_FALSE(evaluate_run(folder_.path(), inputs_)) << "there is no robot";
   write_track("r1/trajectory.tum", 0.0);
   inputs_.truth_file = folder_.path() / "none.ply";

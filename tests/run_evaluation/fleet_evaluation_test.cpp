@@ -66,7 +66,7 @@ class FleetEvaluation : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   RunFolder run_;
-  HeldFleet held_{
+  StoredFleet held_{
       std::move(store::Store::open(folder_.path() / "store.db", agent("r1")).value()), {}, {}, {}};
   eval::TruePoses truth_;
 };

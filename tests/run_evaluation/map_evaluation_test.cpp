@@ -102,7 +102,7 @@ TEST_F(MapEvaluationTest, AFileThatCannotBeReadIsAnError) {
   EXPECT_THAT(status.error().message, HasSubstr("none.ply"));
 }
 
-TEST_F(MapEvaluationTest, WhatIsHeldIsMeasuredAsItIsPlaced) {
+TEST_F(MapEvaluationTest, HeldMapIsMeasuredAsPlaced) {
   MapEvaluation maps(inputs_, site_, truth_);
   const json right = maps.of_held(held_);
   EXPECT_LT(right["rmse"].get<double>(), 0.02);

@@ -7,7 +7,7 @@
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/sessions.hpp"
-#include "held_fleet.hpp"
+#include "stored_fleet.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::run_evaluation {
@@ -61,7 +61,7 @@ class ObservedSite : public ::testing::Test {
   testing::TemporaryFolder folder_;
   const NodeId a_{AgentId::parse("r1").value(), 0}, b_{AgentId::parse("r2").value(), 0};
   const cloud::PointCloud site_ = small_site();
-  HeldFleet held_{std::move(store::Store::open(folder_.path() / "store.db", a_.agent).value()), {}, {}, {}};
+  StoredFleet held_{std::move(store::Store::open(folder_.path() / "store.db", a_.agent).value()), {}, {}, {}};
   std::map<NodeId, Pose> truth_;
 };
 

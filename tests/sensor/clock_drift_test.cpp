@@ -77,7 +77,7 @@ TEST(ClockDrift, LineAndDeviationAreThoseOfLeastSquares) {
   EXPECT_NEAR(line->scatter, std::sqrt(variance), 1e-9);
 }
 
-TEST(ClockDrift, WhatIsOlderThanHalfAnHourIsForgotten) {
+TEST(ClockDrift, LagsOlderThanHalfAnHourAreForgotten) {
   ClockDrift drift;
   // An hour without drift, then half an hour with.
   feed(drift, 0.0, 3600.0, [](double) { return 0.1; });

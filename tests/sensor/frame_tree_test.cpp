@@ -58,7 +58,7 @@ TEST(FrameTree, ALaterTransformReplacesAnEarlierOne) {
   EXPECT_TRUE(tree.find("base_link", "mast")->translation().isApprox(Eigen::Vector3d::UnitX()));
 }
 
-TEST(FrameTree, WhatIsNoTransformIsRefusedByNameAndTheRestIsUsed) {
+TEST(FrameTree, InvalidTransformsAreNamedAndTheOthersUsed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SensorFrames frames;
   frames.add({{"base_link", "a", {nan, 0.0, 0.0}},

@@ -99,7 +99,7 @@ TEST(NmeaFixes, NoFixIsSaidAsSuch) {
   EXPECT_FALSE(add(fixes, gga("101500.00", 0), "2026-11-25T10:15:00.10Z").at(0).valid);
 }
 
-TEST(NmeaFixes, WhatIsMalformedIsCounted) {
+TEST(NmeaFixes, MalformedSentencesAreCounted) {
   NmeaFixes fixes;
   EXPECT_TRUE(add(fixes, gga("10x500.00"), "2026-11-25T10:15:00.10Z").empty());
   EXPECT_EQ(fixes.counters().malformed, 1u);

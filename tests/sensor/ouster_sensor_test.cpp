@@ -124,7 +124,7 @@ TEST(OusterSensor, AFreeRunningClockIsMovedToTheArrivalsOfBothKinds) {
     EXPECT_NEAR(to_seconds(scans[k].stamp - kStart), 0.1 * static_cast<double>(k) + to_seconds(kDelay), 2e-6);
 }
 
-TEST(OusterSensor, WhatWasSwitchedOnAgainBeginsAnew) {
+TEST(OusterSensor, RestartedDeviceBeginsANewSweep) {
   OusterDevice device(seconds(140)), again(seconds(20), 512);
   again.frame = 3;
   OusterSensor sensor = sensor_of(device);

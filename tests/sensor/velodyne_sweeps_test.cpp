@@ -159,7 +159,7 @@ TEST(VelodyneSweeps, ADeviceThatDoesNotTurnMakesNoScan) {
   }
 }
 
-TEST(VelodyneSweeps, WhatIsRefusedChangesNothing) {
+TEST(VelodyneSweeps, RefusedPacketsChangeNothing) {
   VelodyneSweeps sweeps;
   VelodyneDevice device = device_at(kStart);
   const auto before = scans_of(sweeps, device, milliseconds(150));

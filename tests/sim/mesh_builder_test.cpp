@@ -25,7 +25,7 @@ double volume(const Mesh& mesh) {
   return sum;
 }
 
-/// Sides of triangles that no other triangle has the other way round.
+/// SideTest of triangles that no other triangle has the other way round.
 int open_sides(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
   for (const auto& t : mesh.triangles) {

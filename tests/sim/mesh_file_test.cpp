@@ -34,7 +34,7 @@ Mesh of_all_materials() {
   return mesh;
 }
 
-TEST_F(MeshFile, WhatIsWrittenIsReadBack) {
+TEST_F(MeshFile, WrittenContentIsReadBack) {
   const Mesh mesh = of_all_materials();
   const auto obj = folder_.path() / "mesh.obj", ply = folder_.path() / "mesh.PLY";
   ASSERT_TRUE(write_obj(obj, mesh));

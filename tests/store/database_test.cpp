@@ -97,7 +97,7 @@ TEST_F(FilledDatabase, ErrorsNameFileAndStatement) {
   EXPECT_FALSE(db_.is_damaged());
 }
 
-TEST_F(FilledDatabase, WhatCannotBeOpenedOrWrittenIsSaidWithTheRemedy) {
+TEST_F(FilledDatabase, UnusableDatabaseIsReportedWithTheRemedy) {
   const auto missing = Database::open(folder_ / "missing.db", true);
   ASSERT_FALSE(missing);
   EXPECT_THAT(missing.error().message,
@@ -140,7 +140,7 @@ TEST_F(FilledDatabase, AfterASyncThatFailedTheNextOneWritesTheLogAgain) {
 }
 
 /// Disks differ in what they keep of a sync that failed.
-TEST(DatabaseSync, WhatAFailedSyncLostIsWrittenAgain) {
+TEST(DatabaseSync, ItemsOfAFailedSyncAreWrittenAgain) {
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     const testing::TemporaryFolder folder;
     testing::PowerCutDisk disk(seed);

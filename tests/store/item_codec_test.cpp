@@ -142,7 +142,7 @@ TEST(ItemCodec, CountsAndNamesBeyondTheirRulesAreRefused) {
 }
 
 /// Else two rows of equal items could differ.
-TEST(ItemCodec, WhatIsDecodedEncodesToTheSameBytes) {
+TEST(ItemCodec, DecodedItemsEncodeToTheSameBytes) {
   std::mt19937 random(3);
   const Bytes node = encode(make_node(kPeer, 1, {})), alignment = encode(ambiguous());
   int decoded = 0;

@@ -7,10 +7,10 @@
 
 namespace fleetmap::testing {
 
-/// A disk that loses its power at a chosen operation, as a SQLite VFS over the system's own. What was synced
-/// survives; of what was not, nothing, a prefix, or any 512-byte sectors, some of them as garbage. Creation
-/// and deletion of files survive a sync of their folder, which SQLite asks for with the first sync of a new
-/// journal or write-ahead log. After the cut every operation fails, as if the process were gone.
+/// A disk that loses its power at a chosen operation, as a SQLite VFS over the system's own. Bytes that were
+/// synced survive; of the others survive none, a prefix, or any 512-byte sectors, some of them as garbage.
+/// Creation and deletion of files survive a sync of their folder, which SQLite asks for with the first sync
+/// of a new journal or write-ahead log. After the cut every operation fails, as if the process were gone.
 class PowerCutDisk {
  public:
   explicit PowerCutDisk(std::uint32_t seed);

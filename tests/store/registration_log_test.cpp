@@ -98,7 +98,7 @@ TEST(RegistrationLog, TheOldestMakeRoomAndTheFileGrowsNoMore) {
   }
 }
 
-TEST(RegistrationLog, WhatIsNoLogIsRefusedWithItsName) {
+TEST(RegistrationLog, FileThatIsNoLogIsRefusedWithItsName) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "no.db";
   EXPECT_FALSE(RegistrationLog::open_read_only(file));

@@ -124,7 +124,7 @@ TEST_F(StoreDamage, WithoutItsFirstPageItKeepsAll) {
   expect_salvaged(0, 0, 0);
 }
 
-TEST_F(StoreDamage, OfAnOverwrittenPageItLosesWhatWasOnIt) {
+TEST_F(StoreDamage, OverwrittenPageLosesItsItemsAlone) {
   // On one page lie at most eleven items or the piece of one submap, or it leads to others, which are found.
   const std::size_t count = pages();
   const fs::path copy = folder_ / "copy.db";

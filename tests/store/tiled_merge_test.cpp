@@ -276,7 +276,7 @@ TEST(TiledMerge, StopsWhereItsSinkFails) {
   EXPECT_EQ(streamed(*tiled).size(), whole.cloud.size()) << "and may be streamed again";
 }
 
-TEST(TiledMerge, OfNothingIsEmpty) {
+TEST(TiledMerge, EmptyInputGivesEmptyOutput) {
   auto tiled = TiledMerge::plan({}, load, {});
   ASSERT_TRUE(tiled);
   EXPECT_TRUE(streamed(*tiled).empty());

@@ -12,6 +12,7 @@ namespace {
 TEST(Comments, NoneBeginsWithAQuestionWord) {
   static const std::regex kRiddle(R"(^\s*(///?|\*|/\*\*?|#) *(What|Where|How|Who|Whose|Whatever|Of)\b)");
   static const std::regex kTrailing(R"(///< *(what|who|whose|whatever)\b)");
+  static const std::regex kSentence(R"(^\s*(//|\*|#).*[a-z0-9)`]\. (What|Who|Whose|Whoever|Whatever|Of)\b)");
   static const std::regex kComment(R"(^\s*(//|\*|/\*|#))");
   std::size_t files = 0;
   for (const char* root : {"include", "src", "tests", "idl", "config", "qos", "deploy", "cmake"}) {
@@ -27,6 +28,7 @@ TEST(Comments, NoneBeginsWithAQuestionWord) {
           if (begins) {
             EXPECT_FALSE(std::regex_search(line, kRiddle)) << file << ":" << number << ":" << line;
           }
+          EXPECT_FALSE(std::regex_search(line, kSentence)) << file << ":" << number << ":" << line;
           EXPECT_FALSE(std::regex_search(line, kTrailing)) << file << ":" << number << ":" << line;
           begins = !std::regex_search(line, kComment);
         }

@@ -15,13 +15,16 @@ namespace {
 using structure::files_below;
 using structure::unit_of;
 
-/// Returns in a header that make it a unit with logic of its own.
-constexpr std::ptrdiff_t kMinReturns = 5;
+/// Returns in a header that make it a unit with logic of its own; an interface has some of its defaults.
+constexpr std::ptrdiff_t kMinReturns = 3, kMinReturnsOfInterface = 5;
 
 bool has_logic(const std::string& header) {
   static const std::regex kReturn(R"(\breturn\b)");
   const std::string text = structure::text_of(header);
-  return std::distance(std::sregex_iterator(text.begin(), text.end(), kReturn), {}) >= kMinReturns;
+  const auto returns = std::distance(std::sregex_iterator(text.begin(), text.end(), kReturn), {});
+  return returns >= (text.find(") = 0;") == text.npos && text.find("const = 0;") == text.npos
+                         ? kMinReturns
+                         : kMinReturnsOfInterface);
 }
 
 /// Every source, every header without a source that has logic, and every module of the monitor's page.

@@ -93,7 +93,7 @@ TEST_F(Datagram, NobodyIsHeardBeforeItIsAdmitted) {
   EXPECT_EQ(why_not(message()), Why::kUnknown);
 }
 
-TEST_F(Datagram, WhatWasSealedBeforeTheGreetingIsNotOpenedAfterIt) {
+TEST_F(Datagram, DatagramsSealedBeforeTheGreetingAreRefusedAfterIt) {
   const Bytes yesterday = message();
   meet();
   EXPECT_EQ(why_not(yesterday), Why::kReplayed);

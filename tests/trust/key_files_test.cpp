@@ -33,7 +33,7 @@ class KeyFiles : public ::testing::Test {
   const fs::path file_ = folder_.path() / "some.key";
 };
 
-TEST_F(KeyFiles, WhatIsWrittenIsReadAgain) {
+TEST_F(KeyFiles, WrittenContentIsReadAgain) {
   const std::string text("a\0\n\xff", 4);
   for (const Secrecy secrecy : {Secrecy::kSecret, Secrecy::kPublic}) {
     for (const std::string& content : {text, std::string(), std::string(100'000, 'x')}) {

@@ -85,7 +85,7 @@ TEST_F(Keys, NobodyGetsASecondCertificateBeforeTheFirstRunsOut) {
   EXPECT_TRUE(open().add(agent("r1"), Role::kRobot, kYear, kNow + kYear - std::chrono::days(20)));
 }
 
-TEST_F(Keys, WhatIsNoFleetOrOneAlreadyIsSaid) {
+TEST_F(Keys, MissingAndExistingFleetsAreReported) {
   EXPECT_THAT(KeyStore::init(folder(), kNow).error().message, HasSubstr("holds the keys of a fleet already"));
   EXPECT_THAT(KeyStore::open(folder_.path()).error().message, HasSubstr("fleetmap keys init"));
   EXPECT_THAT(open().add(agent("issued"), Role::kRobot, kYear, kNow).error().message,

@@ -92,13 +92,13 @@ class Agent {
   const exchange::Exchange& exchange() const { return *exchange_; }
   exchange::ExchangeStats exchange_stats() const { return exchange_->stats(); }
   /// Robots from which submaps are being fetched.
-  std::vector<AgentId> asked_for_submaps() const { return exchange_->asked_for_submaps(); }
+  std::vector<AgentId> submap_requesters() const { return exchange_->submap_requesters(); }
   const FleetLinkCounters& link_counters() const { return link_->counters(); }
   /// Writes that the disk refused.
   std::uint64_t store_failures() const { return store_failures_.total(); }
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const loop_closure::RegistrationCounters& registrations() const { return loop_closing_.registrations(); }
-  loop_closure::LoopClosureStats loop_closure_stats() const { return loop_closing_.stats(); }
+  loop_closure::CandidateStats candidate_stats() const { return loop_closing_.stats(); }
   /// The driver of the robot; null if this agent does not drive.
   const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of LOAM a scan.
@@ -113,7 +113,7 @@ class Agent {
   /// Robots of the mission that have been silent for long.
   std::set<AgentId> lost() const;
 
-  void on_perceived(Perceived&& perceived);
+  void on_estimate(ScanEstimate&& estimate);
   /// Makes a node at the last scan, stores it and sends it to the fleet.
   void freeze_node();
   /// Begins a session, since the odometry continues in another frame. `why` is for the log. Returns false if

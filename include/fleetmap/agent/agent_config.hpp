@@ -11,7 +11,7 @@
 #include "fleetmap/exchange/exchange.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/compute_placement.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/own_path_config.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/place/node_generator.hpp"
@@ -33,7 +33,7 @@ struct AgentConfig {
   std::optional<GeoPoint> site_origin;  ///< of ENU; absent: the position of the least node id held
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;
-  loop_closure::LoopClosureConfig loop_closure;
+  loop_closure::CandidateConfig loop_closure;
   /// With placement.method graph alone: the paper's placement has no use for loops of one robot.
   loop_closure::OwnPathConfig own_path;
   SubmapConfig submap;
@@ -47,7 +47,7 @@ struct AgentConfig {
   store::RegistrationLogConfig registration_log;
   store::MergeConfig map;
   store::Sessions::Draw draw_session = store::random_session;
-  std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives
+  std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: the robot is driven by others
 
   /// The rules by which maps are made, and the rest that results depend on.
   output::RecipeConfig recipe() const { return {site_origin, placement, map}; }

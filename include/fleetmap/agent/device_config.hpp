@@ -12,6 +12,7 @@ namespace fleetmap::agent {
 inline constexpr std::array<std::uint32_t, 10> kBaudRates = {4800,   9600,   19200,  38400,  57600,
                                                              115200, 230400, 460800, 921600, 1000000};
 
+/// A serial port of this machine, to which a sensor is connected.
 struct SerialPort {
   std::filesystem::path path;
   std::uint32_t baud = 0;  ///< one of kBaudRates; USB devices take any
@@ -20,6 +21,7 @@ struct SerialPort {
 struct UdpPort {
   std::uint16_t port = 0;
 };
+/// A TCP server that sends a sensor's data, such as gpsd.
 struct TcpServer {
   std::string host;
   std::uint16_t port = 0;

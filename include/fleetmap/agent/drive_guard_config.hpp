@@ -6,6 +6,7 @@
 
 namespace fleetmap::agent {
 
+/// Limits of delay and uncertainty beyond which DriveGuard stops the robot.
 struct DriveGuardConfig {
   /// Longest time since the last scan, the odometry's last result and the last pose. A LiDAR of 5 Hz may be
   /// 60 ms late; with kPeriod the command to stop comes at most 280 ms after the last of either, which leaves

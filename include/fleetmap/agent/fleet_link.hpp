@@ -11,6 +11,7 @@
 
 namespace fleetmap::agent {
 
+/// Refused messages, and times of the last traffic, on the bus's clock.
 struct FleetLinkCounters {
   std::uint64_t refused_messages = 0;  ///< that could not be decoded: other version, damaged, hostile
   Stamp last_submap;  ///< when a piece of a submap last came or went, or a request for one came

@@ -15,8 +15,8 @@ namespace fleetmap::agent {
 /// Signs items with the key of a robot's folder, and verifies those of others with the certificates that the
 /// fleet's authority issued: those of the folder, and those that came in greetings since.
 ///
-/// Every certificate of a name counts, also one that expired or was revoked since: what a robot mapped stays
-/// in the map when it gets new keys or is lost. Who holds such a key is kept from the radios instead.
+/// Expired and revoked certificates of a name count, too, because the items that a robot made stay in the map
+/// when it gets new keys or is lost. The radios exclude the holder of a revoked key instead.
 class ItemKeys final : public exchange::ItemAuthenticator {
  public:
   explicit ItemKeys(std::shared_ptr<const trust::Credentials> credentials);

@@ -39,7 +39,7 @@ class Navigator {
   /// To be called when a scan arrives.
   void on_scan() { guard_.on_scan(bus_.now()); }
   /// To be called with the result of every scan.
-  void on_perceived(const Perceived& perceived);
+  void on_estimate(const ScanEstimate& estimate);
   void on_report(const messages::MissionReport& report);
   /// To be called some times a second. `maps_exchanged`: this robot holds everything, and the others hold all
   /// that it has heard of. `exchanged_with`: robots in reach with which nothing is left to exchange.
@@ -72,7 +72,7 @@ class Navigator {
   void watch();
   void note(const std::optional<StopReason>& reason);
   /// Takes the pose of the scan; whether the mission can be driven by it.
-  bool locate(const Perceived& perceived);
+  bool locate(const ScanEstimate& estimate);
   bool stuck(Stamp now) const;
   std::optional<planning::Pose2> pose_of(const GlobalPose& G) const;
   bool guided() const;
@@ -91,7 +91,7 @@ class Navigator {
   Stamp guided_at_{};
   DriveGuard guard_;
   std::optional<StopReason> stop_reason_;  ///< as of the last check
-  Stamp standing_since_{};
+  Stamp stopped_since_{};
   bool drove_ = false;             ///< the guard let a command pass
   bool called_home_ = false;       ///< by an operator
   std::optional<double> battery_;  ///< share left

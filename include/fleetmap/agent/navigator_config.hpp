@@ -11,6 +11,7 @@
 
 namespace fleetmap::agent {
 
+/// A robot's part in a mission: the fleet's plan, the path follower and its guards.
 struct NavigatorConfig {
   /// The whole fleet's plan: the same on every robot.
   std::shared_ptr<const planning::FleetPlan> plan;

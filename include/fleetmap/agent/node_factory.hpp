@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "fleetmap/agent/level_track.hpp"
+#include "fleetmap/agent/gravity_filter.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/recent_surroundings.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
@@ -32,7 +32,7 @@ class NodeFactory {
   /// The next scan, heard at `now`. True if a node is due at it. A scan that the odometry lost enters no
   /// node. For 10 s after the first scan no node is due without a global pose, since GPS may take a while to
   /// begin.
-  bool add(Perceived&& perceived, Stamp now);
+  bool add(ScanEstimate&& estimate, Stamp now);
   /// Points were seen since the last node.
   bool has_rest() const { return submap_.points() > 0; }
 
@@ -41,8 +41,8 @@ class NodeFactory {
     Bytes submap;      ///< encoded
     std::size_t points = 0;
   };
-  /// The node at the last scan, under the name `id`; fails if there is none. What it holds stays gathered
-  /// until restart(): it goes into the next node where this one cannot be stored.
+  /// The node at the last scan, under the name `id`; fails if there is none. Its points are kept until
+  /// restart(), so that the next node contains them if this one cannot be stored.
   Result<Made> make(const NodeId& id);
   /// The node that was made is stored: the next one begins at it.
   void restart();
@@ -55,9 +55,9 @@ class NodeFactory {
   SubmapBuilder submap_;
   RecentSurroundings recent_surroundings_;
   place::NodeGenerator node_generator_;
-  LevelTrack level_;
+  GravityFilter level_;
   odometry::MotionCovariance motion_;           ///< since the last node
-  std::optional<Perceived> last_;               ///< of this frame, not lost; without its points
+  std::optional<ScanEstimate> last_;            ///< of this frame, not lost; without its points
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
   bool missing_gps_logged_ = false;
 };

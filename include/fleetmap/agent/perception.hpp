@@ -22,7 +22,7 @@
 namespace fleetmap::agent {
 
 /// Result of one scan: O with the points, and G at the same instant if the EKF has one.
-struct Perceived {
+struct ScanEstimate {
   odometry::OdometryUpdate odometry;
   std::optional<GlobalPose> G;
   /// Against gravity, in base_link. From the IMU, also where there is no GPS; without an IMU the odometry's
@@ -49,9 +49,9 @@ struct PerceptionCounters {
 /// off the callback thread, one scan at a time.
 class Perception {
  public:
-  using OnPerceived = std::function<void(Perceived&&)>;
+  using OnEstimate = std::function<void(ScanEstimate&&)>;
   /// `on_scan` is called when a scan comes, before and whatever LOAM makes of it.
-  Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived,
+  Perception(const PerceptionConfig& config, bus::Bus& bus, OnEstimate on_estimate,
              std::function<void()> on_scan = {});
 
   /// No scan waits or is under way.
@@ -110,7 +110,7 @@ class Perception {
 
   PerceptionConfig config_;
   bus::Bus& bus_;
-  OnPerceived on_perceived_;
+  OnEstimate on_estimate_;
   std::function<void()> on_scan_;
   odometry::Loam loam_;  ///< touched by the work item under way only
   odometry::LoamCounters loam_counters_;

@@ -28,6 +28,7 @@ struct SensorTopics {
   SensorTopics();  ///< our own names
 };
 
+/// Odometry, EKF and the sensors' topics of one robot.
 struct PerceptionConfig {
   odometry::LoamConfig odometry;
   OusterConfig ouster;

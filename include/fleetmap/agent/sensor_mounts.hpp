@@ -36,7 +36,7 @@ class SensorMounts {
   void apply_to(PerceptionConfig& config, sensor::Source source) const;
   void apply_to(PerceptionConfig& config) const;
 
-  /// From base_link to the frames of the sensors: the configured mounts that nobody else has published
+  /// From base_link to the frames of the sensors: the configured mounts that no other program has published
   /// `frame_patience` after the first message. All of them when there is a new one to be published in
   /// /tf_static, else none. They are recognised when they come back.
   std::vector<sensor::FrameTransform> take_unpublished(Stamp now);
@@ -72,7 +72,7 @@ class SensorMounts {
   Duration patience_;
   std::optional<Stamp> waits_since_;  ///< the first message of any sensor
   std::vector<std::string> warnings_;
-  std::set<std::string> told_;  ///< a publisher repeats its transforms
+  std::set<std::string> reported_;  ///< a publisher repeats its transforms
 };
 
 }  // namespace fleetmap::agent

@@ -6,6 +6,7 @@
 
 namespace fleetmap::agent {
 
+/// Thinning and encoding of the submap of a node (M_i of the paper).
 struct SubmapConfig {
   double voxel = 0.1;                  ///< m, points are thinned to one a cube of this edge
   double resolution = 0.02;            ///< m, rounding of the encoded points

@@ -12,13 +12,13 @@
 namespace fleetmap::agent {
 
 /// Writes O, one file a session, and G of each scan into the agent's directory. A disk that fails later is
-/// logged and stops nobody.
+/// logged; the agent goes on.
 class TrackRecorder {
  public:
   /// `index` of the session, as of store::Sessions::index_of().
   static Result<TrackRecorder> open(const std::filesystem::path& directory, std::size_t index);
 
-  void add(const Perceived& perceived);
+  void add(const ScanEstimate& estimate);
   /// The following poses are of another odometry frame and go into another file.
   void begin_session(std::size_t index);
 

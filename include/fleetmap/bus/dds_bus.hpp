@@ -35,7 +35,7 @@ struct HeardTraffic {
   std::uint64_t hellos = 0;  ///< beside the messages: it is there
   std::uint64_t bytes = 0;   ///< of the messages, on the wire, by wire_bytes()
   std::uint64_t lost = 0;    ///< messages that its writers numbered and that did not come, or came overtaken
-  std::uint64_t timed = 0;   ///< messages that say when they were published
+  std::uint64_t timed = 0;   ///< messages that carry a time of publication
   /// Their mean from that to here, by the clocks of both machines.
   Duration delay = Duration::zero();
 };

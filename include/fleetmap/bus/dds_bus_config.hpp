@@ -13,6 +13,7 @@
 
 namespace fleetmap::bus {
 
+/// The DDS participants of one robot: onboard domain, long range and short range.
 struct DdsBusConfig {
   AgentId agent;
   std::filesystem::path qos_directory;  ///< holds onboard.xml, long_range.xml, short_range.xml

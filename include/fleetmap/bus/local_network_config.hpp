@@ -9,6 +9,7 @@
 
 namespace fleetmap::bus {
 
+/// The two simulated radios of a fleet in virtual time.
 struct LocalNetworkConfig {
   RadioConfig long_range;
   RadioConfig short_range{.rate_bit_s = 15e6,

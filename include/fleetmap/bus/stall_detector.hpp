@@ -18,6 +18,7 @@ struct WorkUnderWay {
   std::string name;
   SteadyTime begun;
 };
+/// A piece of work that has ended, by the steady clock.
 struct EndedWork {
   WorkUnderWay work;
   SteadyTime ended;

@@ -18,8 +18,8 @@ struct WireOverhead {
 /// RTPS header of 20.
 inline constexpr std::size_t kSealBytes = 6;
 
-/// Overhead of a Hello: it has no INFO_DST, since it is for whoever is at its place, and its seal has a
-/// header of 32.
+/// Overhead of a Hello: it has no INFO_DST, since its receiver is not known yet, and its seal has a header of
+/// 32.
 constexpr WireOverhead hello_overhead(bool sealed) {
   return {.rtps = WireOverhead{}.rtps - 16, .seal = sealed ? kSealBytes + 22 : 0};
 }

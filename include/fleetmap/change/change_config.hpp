@@ -6,7 +6,8 @@
 
 namespace fleetmap::change {
 
-/// Resolution and evidence of find_changes(). What counts as a difference is estimated from the maps.
+/// Resolution and evidence of find_changes(). The distance that counts as a difference is estimated from the
+/// maps.
 struct ChangeConfig {
   double cell_m = 0.2;   ///< m, edge of the cells that are compared
   double tile_m = 20.0;  ///< m, edge of the squares whose noise is estimated

@@ -18,6 +18,7 @@ struct ObservedSubmap {
   Eigen::Vector3f sensor = Eigen::Vector3f::Zero();  ///< in the map's frame: the middle of its way
 };
 
+/// Direction of a change from the earlier to the later map.
 enum class Kind : std::uint8_t { appeared, disappeared };
 const char* to_string(Kind kind);
 
@@ -36,6 +37,7 @@ struct Change {
   double traversed_share() const { return static_cast<double>(traversed) / static_cast<double>(cells); }
 };
 
+/// Result of find_changes(): changes in the map's frame, and the noise by which they were found.
 struct Changes {
   std::vector<Change> changes;  ///< largest first
   double noise_m = 0.0;         ///< m, median distance of a surface of one day to itself, seen from elsewhere

@@ -4,6 +4,7 @@
 
 namespace fleetmap::cloud {
 
+/// Quantisation of an encoded cloud (Draco).
 struct CodecConfig {
   double resolution_m =
       0.01;  ///< m, grid that coordinates are rounded to: the error per axis is at most half of it

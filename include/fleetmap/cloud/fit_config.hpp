@@ -6,6 +6,7 @@
 
 namespace fleetmap::cloud {
 
+/// Search for the finest voxels whose encoding fits a budget of bytes.
 struct FitConfig {
   std::size_t max_bytes = 25'000;      ///< of the whole encoding (paper: 25 kB on the long-range link)
   float min_voxel_m = 0.05f;           ///< m, finest voxel tried

@@ -12,6 +12,7 @@
 
 namespace fleetmap::cloud {
 
+/// A point of the tree's cloud, with its squared distance to the query.
 struct Neighbor {
   std::uint32_t index = 0;        ///< into the cloud that the tree was built from
   float squared_distance = 0.0f;  ///< m^2

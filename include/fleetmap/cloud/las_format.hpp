@@ -28,6 +28,7 @@ struct LasDescription {
   Eigen::Vector3i offset = {0, 0, 0};      ///< m
 };
 
+/// A point as LAS stores it, in the file's coordinate reference system.
 struct LasPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the file's reference system
   std::uint16_t intensity = 0;                         ///< over the whole range of 16 bits

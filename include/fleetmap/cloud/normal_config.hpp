@@ -7,6 +7,7 @@
 
 namespace fleetmap::cloud {
 
+/// Neighbourhood from which a normal is estimated.
 struct NormalConfig {
   static constexpr std::size_t kMaxNeighbors = 64;
   std::size_t neighbors = 15;     ///< nearest points, the point itself among them, at most 64

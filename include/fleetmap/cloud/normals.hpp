@@ -11,6 +11,7 @@
 
 namespace fleetmap::cloud {
 
+/// Normals and surface variations (Pauly et al. 2002) of a cloud's points, in its order and frame.
 struct Normals {
   std::vector<Eigen::Vector3f> normals;  ///< unit, or zero where there is none
   /// Least eigenvalue over the sum of the three: 0 on a plane, 1/3 in a ball of points; 1 where there is no

@@ -6,6 +6,7 @@
 
 namespace fleetmap::cloud {
 
+/// Parameters of the statistical outlier removal (Rusu et al. 2008).
 struct OutlierConfig {
   static constexpr std::size_t kMaxNeighbors = 63;
   std::size_t neighbors = 10;  ///< nearest points, without the point itself, at most 63

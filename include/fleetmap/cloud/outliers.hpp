@@ -9,6 +9,7 @@
 
 namespace fleetmap::cloud {
 
+/// Indices of a cloud's points, divided into kept and removed ones.
 struct OutlierSplit {
   std::vector<std::size_t> kept;     ///< ascending
   std::vector<std::size_t> removed;  ///< ascending; non-finite points are among them

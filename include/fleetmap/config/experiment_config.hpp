@@ -22,6 +22,7 @@ struct AxisValue {
   std::optional<std::size_t> agents;  ///< of the axis "agents": the first N of the fleet's file drive
 };
 
+/// A parameter that a study varies, with its values in order.
 struct Axis {
   std::string name;
   std::string unit;
@@ -29,6 +30,7 @@ struct Axis {
   std::string title = {};  ///< in plots; empty: the name
 };
 
+/// Shape of a curve that an experiment expects.
 enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly, kDoesNotRise, kDoesNotFall };
 const char* to_string(Shape shape);
 
@@ -43,6 +45,7 @@ struct Expectation {
       true;  ///< else it is only reported, e.g. what a paper reports and another method need not show
 };
 
+/// A grid of axes and seeds, with its metrics and expectations.
 struct Study {
   std::string name;
   std::string title;

@@ -7,6 +7,7 @@
 
 namespace fleetmap::config {
 
+/// The recording of one robot and its place in the time of the run.
 struct RecordingConfig {
   std::filesystem::path path;
   recording::ReaderConfig reader;

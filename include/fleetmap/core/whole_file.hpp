@@ -10,8 +10,8 @@ namespace fleetmap {
 
 /// A file that appears whole with finish(), or not at all: until then its bytes are in FILE.part beside it,
 /// which goes with this object. The part is open only while something is written, since a map may be divided
-/// into more files than a process may have open. What is there and no regular file, such as /dev/stdout, is
-/// written as it is. Errors name the file and the cause.
+/// into more files than a process may have open. An existing target that is no regular file, such as
+/// /dev/stdout, is written in place. Errors name the file and the cause.
 class WholeFile {
  public:
   /// Replaces a FILE.part that is there.

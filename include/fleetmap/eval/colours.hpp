@@ -6,6 +6,7 @@
 
 namespace fleetmap::eval {
 
+/// A colour of sRGB, 8 bits a channel.
 struct Rgb {
   std::uint8_t r = 0, g = 0, b = 0;
   bool operator==(const Rgb&) const = default;

@@ -7,6 +7,7 @@
 
 namespace fleetmap::eval {
 
+/// Distances and sizes of the comparison of a map with the truth.
 struct MapMetricsConfig {
   double inlier_distance = 0.5;                        ///< m, of Eq. 2 and Eq. 3
   double density_radius = 1.0;                         ///< m, r_d of Eq. 4

@@ -62,7 +62,7 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
                                          const MapMetricsConfig& config = {},
                                          const Pose& T_truth_map = Pose::Identity());
 
-/// The same of a map whose registration to the truth is known already: a part of another one, say.
+/// The same of a map whose registration to the truth is known already, such as a part of another map.
 Result<MapMetrics> evaluate_registered_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
                                            const Pose& T_truth_map, const MapMetricsConfig& config = {});
 

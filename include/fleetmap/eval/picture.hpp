@@ -10,6 +10,7 @@
 
 namespace fleetmap::eval {
 
+/// Projection of a picture: orthographic from above, or perspective.
 enum class Projection { kTop, kPerspective };
 
 /// An entry of a picture's legend.
@@ -17,12 +18,14 @@ struct LegendEntry {
   std::string text;
   Rgb colour;
 };
+/// Scale of the colours of a picture.
 struct ColourBar {
   std::string title;             ///< "error [m]"; empty: no bar
   double low = 0.0, high = 1.0;  ///< values at its ends
   bool open_ended = false;       ///< the last colour also stands for everything above `high`
 };
 
+/// Camera, size and decoration of a picture of a cloud.
 struct View {
   Projection projection = Projection::kTop;
   int width = 1600, height = 1200;  ///< pixels, 64 to 8192 each

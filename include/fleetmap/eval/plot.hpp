@@ -33,6 +33,7 @@ struct LineSeries {
   bool markers = true;
 };
 
+/// A series of a bar chart.
 struct Bars {
   std::string name;
   std::vector<double> values;  ///< one for each group
@@ -52,7 +53,7 @@ std::string histogram(const Axes& axes, const std::vector<HistogramSeries>& seri
                       double first = 0.0);
 std::string bar_plot(const Axes& axes, const std::vector<std::string>& groups, const std::vector<Bars>& bars);
 
-/// For text in XML and HTML, attributes too. What XML forbids (control characters) becomes '?'.
+/// For text in XML and HTML, attributes too. Control characters, which XML forbids, become '?'.
 std::string escaped(std::string_view text);
 /// A number with at most `digits` significant digits: 0.00012 is "1.2e-04", 1234567 is "1.23e+06".
 std::string short_number(double value, int digits = 3);

@@ -17,6 +17,7 @@ using output::Trajectory;
 /// The pose at `stamp`, interpolated; nothing outside the trajectory or in a gap longer than a second.
 std::optional<Pose> pose_at(const Trajectory& trajectory, Stamp stamp);
 
+/// Absolute and relative errors of one trajectory (ATE and RPE, Sturm et al., IROS 2012).
 struct TrajectoryErrors {
   std::size_t pairs = 0;
   double ate_rmse = 0.0;          ///< m, without alignment: both are georeferenced
@@ -49,14 +50,14 @@ struct Track {
   const Trajectory* truth = nullptr;
 };
 /// All robots' positions at once, RMS in m. Squares add up: unaligned^2 = georeference^2 + joint^2 and
-/// joint^2 = between_robots^2 + bend^2.
+/// joint^2 = between_robots^2 + within_robots^2.
 struct FleetErrors {
   std::size_t poses = 0;
   double unaligned = 0.0;       ///< both are georeferenced
   double joint = 0.0;           ///< after the best single rigid transform of the whole fleet: joint ATE
   double georeference = 0.0;    ///< taken away by that transform: the fleet's map lies elsewhere as a whole
   double between_robots = 0.0;  ///< taken away besides by a rigid transform for each robot
-  double bend = 0.0;            ///< the rest: each robot's own track is bent
+  double within_robots = 0.0;   ///< the rest: the distortion of each robot's own track
 };
 /// Fails with fewer than three matches in all. A robot with fewer than three counts with the others only.
 Result<FleetErrors> compare_jointly(std::span<const Track> tracks);

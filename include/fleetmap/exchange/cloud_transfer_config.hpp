@@ -30,7 +30,7 @@ struct CloudTransferConfig {
   int max_tries = 8;  ///< requests in a row without an answer until the cloud counts as lost
   CloudOrder order = CloudOrder::kInformation;
   /// An own good alignment ends the transfer of our cloud to the peer, which stops as well when it hears of
-  /// it (LoopClosureConfig::stop_when_peer_aligned).
+  /// it (CandidateConfig::stop_when_peer_aligned).
   bool cancel_when_aligned = true;
   Status validate() const;
 };

@@ -11,10 +11,10 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/cloud_client.hpp"
 #include "fleetmap/exchange/exchange_config.hpp"
 #include "fleetmap/exchange/exchange_events.hpp"
 #include "fleetmap/exchange/exchange_stats.hpp"
-#include "fleetmap/exchange/loop_closer.hpp"
 #include "fleetmap/exchange/send_queue.hpp"
 #include "fleetmap/messages/messages.hpp"
 #include "fleetmap/messages/routing.hpp"
@@ -36,9 +36,9 @@ using messages::RowOrder;
 /// take_events().
 class Exchange {
  public:
-  /// `store` and `loop_closer` outlive this. Starts from the items in the store; unfinished loop candidates
+  /// `store` and `cloud_client` outlive this. Starts from the items in the store; unfinished loop candidates
   /// are found again.
-  static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer,
+  static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, CloudClient& cloud_client,
                                Stamp now);
   Exchange(Exchange&&) noexcept;
   Exchange& operator=(Exchange&&) noexcept;
@@ -95,7 +95,7 @@ class Exchange {
   bool others_busy(Stamp now) const;
   /// The last status of each robot; that of this one is the present one.
   std::map<AgentId, AgentStatus> statuses() const;
-  /// Whether each robot stands by an order, by its last answer; without an order nobody answers.
+  /// Whether each robot is held by an order, by its last answer; without an order there are no answers.
   std::map<AgentId, messages::Hold::Driving> driving() const;
   ExchangeStats stats() const;
   TableSizes table_sizes() const;
@@ -103,7 +103,7 @@ class Exchange {
   /// Robots heard on the short range within SubmapTransferConfig::peer_timeout.
   std::vector<AgentId> peers_in_reach(Stamp now) const;
   /// Robots that submaps are being fetched from.
-  std::vector<AgentId> asked_for_submaps() const;
+  std::vector<AgentId> submap_requesters() const;
   /// Robots in reach that hold the same submaps: nothing is left to be exchanged with them.
   std::vector<AgentId> in_sync_with(Stamp now) const;
 

@@ -20,6 +20,7 @@ namespace fleetmap::exchange {
 
 using messages::Message;
 
+/// Fleet, link budget and periods of the transport of one robot.
 struct ExchangeConfig {
   std::vector<AgentId> fleet;  ///< every agent, this one too; messages and items of others are refused
   /// The robots that share this robot's radio and its budget, this one included. The others use other radios

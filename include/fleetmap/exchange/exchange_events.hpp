@@ -24,6 +24,7 @@ using messages::Reach;
 struct NodeAdded {
   NodeId id;
 };
+/// An alignment of another robot was stored, or an own one that was returned.
 struct AlignmentAdded {
   store::AlignmentId id;
 };
@@ -36,9 +37,11 @@ struct CloudNeeded {
   NodeId node;
   AgentId to;
 };
+/// The status of another robot was received.
 struct PeerStatus {
   AgentStatus status;
 };
+/// The mission report of another robot was received.
 struct MissionHeard {
   MissionReport report;
 };

@@ -11,6 +11,7 @@
 
 namespace fleetmap::exchange {
 
+/// Counters of the long-range queue.
 struct SendQueueStats {
   std::array<std::uint64_t, kPriorities> sent{};     ///< messages
   std::array<std::uint64_t, kPriorities> dropped{};  ///< when the class was full
@@ -19,12 +20,14 @@ struct SendQueueStats {
   std::uint64_t wire_bytes = 0;                      ///< sent, with overhead, times receivers
 };
 
+/// Counters of spherized clouds that this robot sends.
 struct CloudSenderStats {
   std::uint64_t offered = 0;       ///< clouds
   std::uint64_t too_large = 0;     ///< clouds refused
   std::uint64_t bad_requests = 0;  ///< requested pieces that do not exist
 };
 
+/// Counters of spherized clouds that this robot receives.
 struct CloudReceiverStats {
   std::uint64_t received = 0;  ///< whole clouds with the right hash
   std::uint64_t abandoned = 0;
@@ -35,6 +38,7 @@ struct CloudReceiverStats {
   std::uint64_t requests = 0;
 };
 
+/// Counters of the reconciliation of items by digests.
 struct ReconcileStats {
   std::uint64_t digests_sent = 0;
   std::uint64_t digests_heard = 0;
@@ -45,6 +49,7 @@ struct ReconcileStats {
   std::uint64_t hostile = 0;  ///< ranges that are reversed, beyond kEndOfSeqs or of several sessions
 };
 
+/// Counters of submaps that this robot fetches over the short range.
 struct SubmapReceiverStats {
   std::uint64_t requests = 0;
   std::uint64_t chunks = 0;      ///< that brought something new
@@ -56,6 +61,7 @@ struct SubmapReceiverStats {
   std::uint64_t submaps = 0;     ///< completed
 };
 
+/// Counters of submaps that this robot sends over the short range.
 struct SubmapSenderStats {
   std::uint64_t requests = 0;
   std::uint64_t refused = 0;  ///< requests for what is not held or does not exist
@@ -64,6 +70,7 @@ struct SubmapSenderStats {
   std::uint64_t bytes = 0;  ///< payload sent
 };
 
+/// Counters of the transport of one robot since its start.
 struct ExchangeStats {
   SendQueueStats long_range;
   CloudSenderStats cloud_sender;

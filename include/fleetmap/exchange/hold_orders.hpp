@@ -78,7 +78,7 @@ class HoldOrders {
   bool is_resumed(const HoldOrder& order) const;
   /// Whether the later `order` to drive on lets a robot that obeyed `before` drive home.
   bool goes_on_home(const HoldOrder& order, const HoldOrder& before) const;
-  /// Adds `order` as it was completed, which was of kind `requested`.
+  /// Adds `order`, which completed() has made of an order of kind `requested`.
   bool add_completed(const HoldOrder& order, HoldOrder::Kind requested);
   /// Completes the order that this robot obeys since another one repeated it; this robot obeyed `before`.
   bool complete_own(const std::optional<HoldOrder>& before);

@@ -38,8 +38,8 @@ class Pace {
   PaceConfig config_;
   TokenBucket bucket_;
   std::deque<Sent> last_second_;
-  double in_last_second_ = 0.0;                    ///< B
-  std::optional<Stamp> first_asked_, last_taken_;  ///< of items
+  double in_last_second_ = 0.0;                        ///< B
+  std::optional<Stamp> first_requested_, last_taken_;  ///< of items
 };
 
 }  // namespace fleetmap::exchange

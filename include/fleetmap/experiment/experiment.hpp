@@ -8,6 +8,7 @@
 
 namespace fleetmap::experiment {
 
+/// Records of all cases, and the checks of the expected shapes.
 struct ExperimentResult {
   Outcome outcome;
   std::vector<ShapeCheck> checks;

@@ -21,6 +21,7 @@ struct Progress {
   const CaseRecord* ended = nullptr;  ///< the case that just ended
 };
 
+/// Records of the cases that were run, now or by an earlier start.
 struct Outcome {
   std::vector<CaseRecord> records;   ///< of finished and failed cases, in the order of the cases
   std::size_t total = 0;             ///< cases

@@ -5,6 +5,7 @@
 
 namespace fleetmap::experiment {
 
+/// Folder, processes and program of a grid of runs.
 struct RunnerConfig {
   std::filesystem::path directory;  ///< cases/<name>/ and their results are kept here
   unsigned jobs = 1;                ///< cases at a time

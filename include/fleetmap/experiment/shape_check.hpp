@@ -46,7 +46,7 @@ struct Trend {
 /// Student's distribution of its freedom (one seed: any step is allowed).
 /// p is the larger of two: that of the seeds' slopes (seeds - 1 degrees of freedom), and that of the same
 /// contrast with residual_of()'s sigma, which two equal slopes do not make 0.
-/// `falling` asks for falls; otherwise rises.
+/// `falling` tests for falls, else for rises.
 Trend check_trend(const Curve& curve, bool falling);
 
 /// Whether a mean lies above the first (`falling`: below) by `by` or more, which is violated (a test of
@@ -54,6 +54,7 @@ Trend check_trend(const Curve& curve, bool falling);
 /// by `by`: from the paired differences with residual_of()'s sigma.
 Trend check_limit(const Curve& curve, bool falling, double by);
 
+/// Result of the check of a curve's expected shape.
 enum class Verdict : std::uint8_t {
   kHolds,
   kHoldsWeakly,  ///< the means have the shape, but with these few seeds chance could have made it (p > 0.05)

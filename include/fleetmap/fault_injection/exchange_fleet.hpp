@@ -26,13 +26,13 @@ struct Packet {
   std::size_t wire_bytes = 0;  ///< on the radio with overhead and copies, on the short range the payload
 };
 
-/// Stores and exchanges of a fleet on a network in virtual time. What the network does to a packet, and what
-/// the rest of a robot does about an event, is up to the derived class.
+/// Stores and exchanges of a fleet on a network in virtual time. The derived class decides which packets the
+/// network delivers and how a robot reacts to an event.
 class ExchangeFleet {
  public:
   struct Robot {
     std::unique_ptr<store::Store> store;
-    std::unique_ptr<loop_closure::CandidateScheduler> loop_closer;
+    std::unique_ptr<loop_closure::CandidateScheduler> cloud_client;
     std::unique_ptr<exchange::Exchange> exchange;
     std::uint16_t session = 0;
     Duration clock_offset = Duration::zero();  ///< of the robot's clock from virtual time
@@ -93,8 +93,8 @@ class ExchangeFleet {
   /// Passes on the events of the robot's exchange and loop closing.
   void pass_on(const AgentId& name, Robot& robot);
 
-  exchange::ExchangeConfig config_;              ///< of the robots that start from now on
-  loop_closure::LoopClosureConfig loop_config_;  ///< likewise
+  exchange::ExchangeConfig config_;            ///< of the robots that start from now on
+  loop_closure::CandidateConfig loop_config_;  ///< likewise
 
  private:
   struct Flight {

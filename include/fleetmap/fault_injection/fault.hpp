@@ -12,6 +12,7 @@
 
 namespace fleetmap::fault_injection {
 
+/// Kinds of faults that a simulated fleet is exposed to.
 enum class FaultKind : std::uint8_t {
   kLoss,          ///< a share `value` of packets is lost
   kDelay,         ///< packets take up to `value` s more, so that they overtake each other
@@ -45,6 +46,7 @@ bool stops_robot(FaultKind kind);
 /// Parses names separated by commas, or "all".
 Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names);
 
+/// A fault of a link or robot over an interval of the simulation.
 struct Fault {
   FaultKind kind = FaultKind::kLoss;
   Duration begin{};  ///< since the fleet's start

@@ -14,6 +14,7 @@
 
 namespace fleetmap::fault_injection {
 
+/// Result of one simulated fleet.
 struct Outcome {
   std::vector<Violation> violations;  ///< the first of each invariant and robot
   Duration converged_after{};         ///< the last fault

@@ -34,6 +34,7 @@ const char* to_string(Invariant invariant);
 /// Parses names separated by commas, or "all".
 Result<std::set<Invariant>> parse_invariants(std::string_view names);
 
+/// An invariant that a fleet violated, and when.
 struct Violation {
   Invariant invariant;
   Duration at;        ///< since the fleet's start

@@ -8,6 +8,7 @@
 
 namespace fleetmap::fault_injection {
 
+/// Settings of a simulated fleet that its scenario does not contain.
 struct RunConfig {
   /// s after the last fault, in which all must have converged.
   Duration convergence_timeout = std::chrono::minutes(10);

@@ -8,6 +8,7 @@
 
 namespace fleetmap::fault_injection {
 
+/// Ranges from which a seed draws a fleet and its faults.
 struct ScenarioConfig {
   std::size_t min_robots = 3, max_robots = 10;
   Duration mapping = std::chrono::seconds(150);

@@ -5,7 +5,8 @@
 
 namespace fleetmap::fleet_codec {
 
-/// T is any type with an encode() in this folder except messages::Message. Errors say which type and why.
+/// T is any type with an encode() in this folder except messages::Message. Errors name the type and the
+/// cause.
 template <class T>
 Result<T> decode(ByteView cdr);
 

@@ -19,10 +19,10 @@ Result<graph::Node> decode(ByteView cdr);
 Bytes signed_bytes(const graph::Node& node);
 
 /// The value that every receiver of `node` will hold. Its owner must keep this one too, so that the whole
-/// fleet computes with the same numbers; rounding it again changes nothing. Of G's covariance remain the
-/// position's variances and east-north covariance, the mean variance of the tilts, and the yaw's. An
-/// odom_covariance that is none counts as unknown, and so is very large. A signature is left out. Fails when
-/// `node` could not be decoded (non-finite pose, position off the Earth, ...).
+/// fleet computes with the same numbers; rounding it again changes nothing. G's covariance
+/// keeps the position's variances and east-north covariance, the mean variance of the tilts, and the yaw's.
+/// An odom_covariance that is none counts as unknown, and so is very large. A signature is left out. Fails
+/// when `node` could not be decoded (non-finite pose, position off the Earth, ...).
 Result<graph::Node> quantised(const graph::Node& node);
 
 }  // namespace fleetmap::fleet_codec

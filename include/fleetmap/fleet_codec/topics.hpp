@@ -12,12 +12,12 @@ namespace fleetmap::fleet_codec::topics {
 // ---- onboard; those of ROS 2's types are in ros_codec/topics.hpp
 bus::Topic global_pose();     ///< GlobalPose
 bus::Topic corrected_pose();  ///< GlobalPose: T_enu_odom of the fleet's graph, applied to the odometry
-/// GlobalPose, from whoever else knows where the robot is: the mission is driven by it instead of by G.
+/// GlobalPose, from another localization of the robot: the navigator uses it instead of G.
 bus::Topic guide_pose();
 /// messages::Hold, from a button on the robot.
 bus::Topic hold_onboard();
 
-// ---- the fleet's radios. What goes over both has the same name on both.
+// ---- the fleet's radios. A topic that both radios carry has the same name on both.
 /// Orders to stand still; operators publish here.
 bus::Topic hold();
 

@@ -1,11 +1,12 @@
 #pragma once
 
 /// Functions that give the same bits on every processor, unlike those of the C library, whose last digit
-/// differs between x86 and ARM. What robots must compute alike from the same items (what they decode,
-/// placement) uses these. Errors below 1 ulp; NaN and infinities as in <cmath>. (SLEEF, its functions of
+/// differs between x86 and ARM. Decoding and placement use these, because all robots must compute the same
+/// result from the same items. Errors below 1 ulp; NaN and infinities as in <cmath>. (SLEEF, its functions of
 /// consistent results.)
 namespace fleetmap::portable {
 
+/// Sine and cosine of one angle.
 struct SinCos {
   double sin = 0.0;
   double cos = 1.0;

@@ -7,6 +7,7 @@ namespace fleetmap {
 // Decompositions of covariances and information matrices, compiled once, because each costs the compiler
 // seconds in every file that instantiates it.
 
+/// Eigenvalues and eigenvectors of a symmetric 6x6 matrix.
 struct SymmetricEigen {
   Vector6d values;   ///< ascending
   Matrix6d vectors;  ///< columns, orthonormal

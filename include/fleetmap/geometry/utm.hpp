@@ -26,6 +26,7 @@ std::optional<UtmZone> utm_zone_at(const GeoPoint& point);
 /// Empty for any code but those of UtmZone::epsg().
 std::optional<UtmZone> utm_zone_of_epsg(int code);
 
+/// A position on the map of a UTM zone.
 struct UtmPoint {
   Eigen::Vector2d p_utm;  ///< easting and northing, m
   double scale = 1.0;     ///< of lengths on the map over those on the ellipsoid

@@ -37,7 +37,7 @@ class InformationGain {
   void add(const Alignment& alignment);
 
   /// The information gain of each pair, given that the pairs in `expected` will be aligned too. Pairs of
-  /// unknown nodes gain 0. Of pairs that stay far apart in 4,096 nodes it is an upper bound.
+  /// unknown nodes gain 0. It is an upper bound for pairs that stay far apart in 4,096 nodes.
   std::vector<double> of(std::span<const Pair> pairs, std::span<const Pair> expected) const;
 
  private:

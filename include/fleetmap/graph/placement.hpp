@@ -25,6 +25,7 @@ enum class AlignmentStatus {
 };
 const char* to_string(AlignmentStatus status);
 
+/// Status of one alignment after the placement.
 struct AlignmentOutcome {
   NodeId i, j;
   AgentId computed_by;
@@ -33,8 +34,8 @@ struct AlignmentOutcome {
   std::size_t mode = 0;  ///< that is used
 };
 
-/// Reliability of the alignments that an agent computed.
-struct AgentCredit {
+/// Counts of the alignments that an agent computed, by their status.
+struct AlignmentStats {
   std::size_t used = 0;
   std::size_t rejected = 0;      ///< contradict GPS, odometry or others
   std::size_t outlier_sets = 0;  ///< sets of rejected alignments that agree with each other
@@ -54,8 +55,8 @@ struct Placement {
   // Only of method `graph`.
   std::vector<AlignmentOutcome> outcomes;  ///< every alignment, by (computed_by, seq)
   std::optional<AgentId> contradicting;  ///< agent that contradicts all others: no alignment with it is used
-  std::map<AgentId, AgentCredit> credits;  ///< of those who computed any
-  std::map<NodeId, Matrix6d> covariance;   ///< of T_enu_node, right tangent: [m, rad]
+  std::map<AgentId, AlignmentStats> alignment_stats;  ///< of those who computed any
+  std::map<NodeId, Matrix6d> covariance;              ///< of T_enu_node, right tangent: [m, rad]
 };
 
 }  // namespace fleetmap::graph

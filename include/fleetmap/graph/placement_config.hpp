@@ -6,6 +6,7 @@
 
 namespace fleetmap::graph {
 
+/// Method by which nodes are placed in ENU.
 enum class PlacementMethod {
   paper,  ///< one rigid transform a pair of agents, that of least E_ij
   graph,  ///< the fleet's robust pose graph
@@ -13,6 +14,7 @@ enum class PlacementMethod {
 
 const char* to_string(PlacementMethod method);
 
+/// Method of the placement, and the settings of each method.
 struct PlacementConfig {
   PlacementMethod method = PlacementMethod::graph;
   PaperPlacementConfig paper;

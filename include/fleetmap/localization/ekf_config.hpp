@@ -32,6 +32,8 @@ struct ImuModel {
   double orientation_yaw_floor = 0.05;       ///< rad, lower bound of the sigma of a reported heading
 };
 
+/// Errors of GPS: white noise and a first-order Gauss-Markov process (Brown and Hwang, "Introduction to
+/// Random Signals and Applied Kalman Filtering"), and the gates against outliers.
 struct GpsModel {
   /// s. Errors of GPS are mostly slow (atmosphere, multipath): averaging a thousand fixes of one minute does
   /// not divide their error by thirty. The share `correlated_share` of the reported variance is estimated as
@@ -50,6 +52,7 @@ struct GpsModel {
   double recovery_time_far = 60.0;  ///< s, the same for fixes outside max_site_radius (no configured origin)
 };
 
+/// Errors of wheel odometry in base_link, with non-holonomic constraints (Dissanayake et al. 2001).
 struct WheelModel {
   double speed_sigma = 0.05;     ///< m/s
   double speed_scale = 0.02;     ///< 1, of the speed (tyres, slip)

@@ -15,8 +15,8 @@ namespace fleetmap::localization {
 
 /// Error state: position (m, ENU), velocity (m/s, ENU), attitude (rad, ENU axes: R_true = exp(theta) R), gyro
 /// bias (rad/s) and accelerometer bias (m/s^2) in the IMU frame: 15 states. Three more carry the slow part of
-/// the GPS error, in units of its standard deviation; with gps.correlation_time = 0 they stay at 0 and touch
-/// nothing.
+/// the GPS error as a first-order Gauss-Markov process (GpsModel), in units of its standard deviation; with
+/// gps.correlation_time = 0 they stay at 0 and touch nothing.
 inline constexpr int kStates = 18;
 enum StateOffset : int { kPos = 0, kVel = 3, kAtt = 6, kGyroBias = 9, kAccelBias = 12, kGpsError = 15 };
 using Covariance = Eigen::Matrix<double, kStates, kStates>;
@@ -42,7 +42,7 @@ struct EkfCounters {
   std::uint64_t fix_covariance_replaced = 0;  ///< used with gps.default_sigma_*
   std::uint64_t fix_recoveries = 0;      ///< rejected fixes that agreed for so long that they were accepted
   std::uint64_t heading_alignments = 0;  ///< heading taken from motion
-  std::uint64_t heading_resets = 0;      ///< of these, those that overruled a heading already held
+  std::uint64_t heading_resets = 0;      ///< of these, those that replaced an earlier heading
   std::uint64_t restarts = 0;            ///< the clock stepped back for good: everything began anew
   std::uint64_t heading_lost = 0;        ///< heading became too uncertain to go on with
 };

@@ -9,16 +9,17 @@
 #include <vector>
 
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/loop_closer.hpp"
+#include "fleetmap/exchange/cloud_client.hpp"
 #include "fleetmap/geometry/uncertain_pose.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
 
 namespace fleetmap::loop_closure {
 
-struct LoopClosureStats {
+/// Counters of the loop candidates with other robots since the start.
+struct CandidateStats {
   std::uint64_t by_position = 0;    ///< pairs within r^i (Alg. 2), or found so by a peer
   std::uint64_t by_descriptor = 0;  ///< descriptor matches, where not both nodes have a good G
   std::uint64_t by_transform = 0;   ///< pairs within r^i by an inter-frame transform, likewise
@@ -30,7 +31,7 @@ struct LoopClosureStats {
   std::uint64_t ended_by_peer =
       0;                      ///< requested, and ended by the peer's good alignment before the cloud arrived
   std::uint64_t yielded = 0;  ///< requested, and dropped in favour of the pair that the peer had selected
-  std::uint64_t crowded_out = 0;    ///< dropped when too many waited
+  std::uint64_t overflowed = 0;     ///< dropped when too many waited
   std::uint64_t uninformative = 0;  ///< dropped while the radio was busy: below min_information
 };
 
@@ -49,9 +50,9 @@ struct ScheduledCandidate;
 /// is registered, and ends as done or failed; a failed one is tried once more. Both robots find the same
 /// pairs from the same nodes. If a node was lost on the way and they chose different pairs at one place, the
 /// match messages show it, and the smaller pair wins on both.
-class CandidateScheduler final : public exchange::LoopCloser {
+class CandidateScheduler final : public exchange::CloudClient {
  public:
-  CandidateScheduler(const AgentId& self, const LoopClosureConfig& config);
+  CandidateScheduler(const AgentId& self, const CandidateConfig& config);
   ~CandidateScheduler() override;
   CandidateScheduler(const CandidateScheduler&) = delete;
   CandidateScheduler& operator=(const CandidateScheduler&) = delete;
@@ -78,7 +79,7 @@ class CandidateScheduler final : public exchange::LoopCloser {
   /// transform, or while it is distrusted.
   std::optional<UncertainPose> transform(const NodePair& pair) const;
   bool has_good_alignment(const AgentId& peer) const;
-  LoopClosureStats stats() const;
+  CandidateStats stats() const;
 
  private:
   struct State;
@@ -90,12 +91,12 @@ class CandidateScheduler final : public exchange::LoopCloser {
   bool heard(const AgentId& peer, Stamp now) const;
 
   AgentId self_;
-  LoopClosureConfig config_;
+  CandidateConfig config_;
   std::unique_ptr<State> state_;
   std::map<AgentId, Stamp> heard_;
   std::vector<NodePair> withdrawn_;
   std::vector<ReceivedCloud> received_;
-  LoopClosureStats stats_;  ///< without what the set counts
+  CandidateStats stats_;  ///< without what the set counts
 };
 
 }  // namespace fleetmap::loop_closure

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "fleetmap/exchange/loop_closer.hpp"
+#include "fleetmap/exchange/cloud_client.hpp"
 #include "fleetmap/geometry/uncertain_pose.hpp"
 
 namespace fleetmap::loop_closure {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
 #include "fleetmap/loop_closure/loop_closing_config.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
 #include "fleetmap/loop_closure/own_path_config.hpp"
 #include "fleetmap/loop_closure/registration_record.hpp"
 #include "fleetmap/registration/registration_config.hpp"
@@ -46,8 +46,8 @@ class LoopClosing {
   LoopClosing& operator=(const LoopClosing&) = delete;
 
   /// The interface to the transport. Lives as long as this.
-  exchange::LoopCloser& scheduler() { return scheduler_; }
-  LoopClosureStats stats() const { return scheduler_.stats(); }
+  exchange::CloudClient& scheduler() { return scheduler_; }
+  CandidateStats stats() const { return scheduler_.stats(); }
   const RegistrationCounters& registrations() const;
 
   /// A session of this robot begins: its nodes in the store are of earlier ones.

@@ -1,16 +1,17 @@
 #pragma once
 
 #include "fleetmap/core/ids.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/own_path_config.hpp"
 #include "fleetmap/registration/registration_config.hpp"
 #include "fleetmap/registration/spherize_config.hpp"
 
 namespace fleetmap::loop_closure {
 
+/// Candidates, spherization and registration of one robot's loop closing.
 struct LoopClosingConfig {
   AgentId self;
-  LoopClosureConfig candidates;  ///< with peers and earlier sessions
+  CandidateConfig candidates;  ///< with peers and earlier sessions
   OwnPathConfig own_path;
   bool closes_own_path = true;
   registration::SpherizeConfig spherize;

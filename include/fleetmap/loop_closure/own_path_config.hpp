@@ -6,7 +6,7 @@
 
 namespace fleetmap::loop_closure {
 
-/// Selection of loop closures within a robot's own path. The configuration file names it `loop_closures`.
+/// Selection of loop closures within a robot's own path.
 struct OwnPathConfig {
   /// m between two nodes by odometry. Clouds 45 m apart still overlap in the middle, and a robot that drives
   /// every sixth row of a large site has no other constraint between its lanes.

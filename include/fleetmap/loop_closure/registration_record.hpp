@@ -10,6 +10,7 @@
 
 namespace fleetmap::loop_closure {
 
+/// Counters of the registrations of one robot since its start.
 struct RegistrationCounters {
   std::uint64_t accepted = 0;
   std::uint64_t ambiguous = 0;

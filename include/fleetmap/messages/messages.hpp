@@ -51,7 +51,7 @@ struct CloudFragment {
   Bytes payload;
 };
 
-/// `from` asks `to` for pieces of a cloud; no index means the whole.
+/// `from` requests pieces of a cloud of `to`; no index means the whole.
 struct CloudRequest {
   static constexpr std::size_t kMaxMissing = 256;
   AgentId from;
@@ -72,7 +72,7 @@ struct Digest {
   std::vector<std::uint32_t> alignment_prints = {};
 };
 
-/// `from` asks `to` for items that the digest of `to` offered.
+/// `from` requests items that the digest of `to` offered.
 struct ItemRequest {
   AgentId from;
   AgentId to;
@@ -104,8 +104,8 @@ struct AgentStatus {
   Health health = {};
 };
 
-/// An operator's order to stand still, to drive home or to drive on. Of the orders that concern a robot, for
-/// itself or for all, the one with the latest stamp is in force.
+/// An operator's order to stand still, to drive home or to drive on. The order with the latest stamp, among
+/// those for the robot and those for all, is in force.
 struct HoldOrder {
   enum class Kind : std::uint8_t {
     kResume,    ///< drive the mission
@@ -123,11 +123,11 @@ struct HoldOrder {
   bool calls_home() const { return kind == Kind::kHome || kind == Kind::kHoldHome; }
 };
 
-/// An operator's order to give a row away. Of the orders for a row the one with the latest stamp is in force.
+/// An operator's order to give a row away. The order with the latest stamp for a row is in force.
 struct RowOrder {
   Stamp stamp;            ///< as that of a HoldOrder
   AgentId robot;          ///< is not to drive it
-  AgentId to;             ///< is to drive it; empty: whoever of the others is done with it first
+  AgentId to;             ///< is to drive it; empty: the first other robot that is free
   AgentId issuer;         ///< for people
   std::uint32_t row = 0;  ///< its id in the mission
   bool operator==(const RowOrder&) const = default;
@@ -140,7 +140,7 @@ struct Hold {
     kNoRobot,    ///< `from` is an operator
     kFree,       ///< `from` drives its mission
     kHeld,       ///< `from` stands by an order
-    kNoMission,  ///< `from` obeys nobody here: something else drives it
+    kNoMission,  ///< `from` obeys no orders: it is driven by another program
     kHome,       ///< `from` drives home by an order, or is there
   };
   AgentId from;
@@ -159,7 +159,7 @@ struct SubmapDigest {
   std::vector<AgentId> hears;
 };
 
-/// `from` asks `to` for bytes [offset, offset + length) of an encoded submap.
+/// `from` requests bytes [offset, offset + length) of an encoded submap of `to`.
 struct SubmapRequest {
   AgentId from;
   AgentId to;
@@ -168,6 +168,7 @@ struct SubmapRequest {
   std::uint32_t length = 0;
 };
 
+/// Bytes [offset, offset + payload) of an encoded submap of `from`, requested by `to`.
 struct SubmapChunk {
   static constexpr std::size_t kMaxPayload = 8192;
   AgentId from;

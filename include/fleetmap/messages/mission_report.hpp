@@ -12,6 +12,7 @@
 
 namespace fleetmap::messages {
 
+/// Activity of a robot in a mission.
 enum class MissionState : std::uint8_t {
   kDriving,     ///< drives rows, or is ready to
   kMeeting,     ///< waits where all meet; takes over rows if there are any
@@ -59,8 +60,8 @@ struct MissionReport {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< ENU, m
   double battery = 1.0;                                ///< share left, [0, 1]
   std::uint32_t current = kNoRow;                      ///< index of the row under way
-  RowSet done;                                         ///< driven by anyone, as far as the sender knows: of
-                                                       ///< rows that the plan gives to others this is hearsay
+  RowSet done;                                         ///< driven by any robot, by the sender's reports; for
+                                                       ///< rows of other robots this is not evidence
   RowSet claimed;                                      ///< planned by the sender, the one under way included
   RowSet failed;                                       ///< the sender tried and gave up
 };

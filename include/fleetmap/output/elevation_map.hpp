@@ -13,6 +13,7 @@
 
 namespace fleetmap::output {
 
+/// Size and coverage of the rasters that were written.
 struct WrittenElevation {
   store::MapOutline outline;
   int width = 0, height = 0;  ///< cells

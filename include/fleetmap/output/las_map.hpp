@@ -15,6 +15,7 @@
 
 namespace fleetmap::output {
 
+/// Numbers of points and files that were written.
 struct WrittenLas {
   store::MapOutline outline;
   std::uint64_t points = 0;

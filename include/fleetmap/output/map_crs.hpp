@@ -16,7 +16,7 @@
 namespace fleetmap::output {
 
 /// The coordinate reference system that is asked for.
-struct CrsChoice {
+struct CrsRequest {
   enum class Kind {
     site_zone,  ///< the UTM zone of the origin
     zone,       ///< that of `zone`
@@ -24,12 +24,12 @@ struct CrsChoice {
   };
   Kind kind = Kind::site_zone;
   UtmZone zone;
-  bool operator==(const CrsChoice&) const = default;
+  bool operator==(const CrsRequest&) const = default;
 };
 /// Reads "utm", "enu" or "EPSG:32630", in any case. Other codes are refused: WGS84 is the frame that GPS and
 /// so the map is in. The change to national frames takes their grids and an epoch, without which it is wrong
 /// by metres and nothing shows it; programs of surveyors, which have both, do it from the file.
-Result<CrsChoice> parse_crs(std::string_view text);
+Result<CrsRequest> parse_crs(std::string_view text);
 
 /// Place of the frame of a map.
 struct MapPlace {
@@ -41,8 +41,8 @@ struct MapPlace {
 class MapCrs {
  public:
   /// Heights are above the ellipsoid, or above `geoid`. Fails for a zone if the map is not georeferenced, is
-  /// too far from it, or there is none; and for a geoid with CrsChoice::Kind::enu.
-  static Result<MapCrs> of(const CrsChoice& choice, const MapPlace& place, std::optional<Geoid> geoid);
+  /// too far from it, or there is none; and for a geoid with CrsRequest::Kind::enu.
+  static Result<MapCrs> of(const CrsRequest& request, const MapPlace& place, std::optional<Geoid> geoid);
 
   /// "EPSG:32630", or "enu".
   std::string name() const;

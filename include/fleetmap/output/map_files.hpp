@@ -22,6 +22,7 @@ store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T
 Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                     const store::MergeConfig& config);
 
+/// Outline and number of points of a map that was written.
 struct WrittenMap {
   store::MapOutline outline;
   std::size_t points = 0;
@@ -55,9 +56,9 @@ Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_
 /// Writes file_of(part) and returns how many submaps it shows.
 Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
                                const std::filesystem::path& directory);
-/// Removes the parts of an earlier run: what nobody could place then may be on the map now.
+/// Removes the parts of an earlier run, since nodes that could not be placed then may be in the map now.
 void remove_parts(const std::filesystem::path& directory);
-/// Removes what a program left that was killed while it merged a map: up to gigabytes that nobody reads.
+/// Removes temporary files, up to gigabytes, of a program that was killed while it merged a map.
 void remove_unfinished_maps(const std::filesystem::path& directory);
 
 }  // namespace fleetmap::output

@@ -17,6 +17,7 @@ struct MapPart {
   bool georeferenced = false;
 };
 
+/// The map of map.ply, and the parts that are written to files of their own.
 struct MapParts {
   /// The content of map.ply: all georeferenced components, which ENU connects even if no alignment does. If
   /// there are none, the component with most nodes.

@@ -8,6 +8,7 @@
 
 namespace fleetmap::output {
 
+/// Origin, placement and merging of an agent's map.
 struct RecipeConfig {
   std::optional<GeoPoint> site_origin;  ///< of ENU; absent: site_origin() of the store
   graph::PlacementConfig placement;

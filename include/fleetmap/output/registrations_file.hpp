@@ -31,6 +31,7 @@ inline constexpr const char* kRegistrationsFile = "registrations.csv";
 /// Begins the file if it is not there. A file that was begun without poses goes on without.
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row);
 
+/// Content of a registrations.csv.
 struct Registrations {
   std::vector<RegistrationRow> rows;
   std::size_t damaged = 0;  ///< lines that cannot be read; they are left out

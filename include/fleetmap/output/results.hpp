@@ -20,18 +20,19 @@
 
 namespace fleetmap::output {
 
+/// Placement and files that write_results() left.
 struct Results {
   GeoPoint origin;
   graph::Placement placement;
   MapFiles map;
   std::vector<MapPart> apart;       ///< not in map.ply, but in file_of(part)
   std::size_t missing_submaps = 0;  ///< of nodes that are held
-  /// Odometry frames of which nobody knows where on Earth they are: no G in all that is tied to them.
+  /// Odometry frames without a georeference: no node of a frame that alignments join to them has G.
   std::vector<graph::FrameId> not_georeferenced;
   std::map<AgentId, graph::Contradiction> contradicting;  ///< agents that contradict the fleet
 };
 
-/// Writes map.ply, map.pcd, one more file for each part of the fleet that nobody can lay onto that map,
+/// Writes map.ply, map.pcd, one more file for each part of the fleet that no alignment joins to that map,
 /// trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory. Fails when there is no
 /// node yet, or a file cannot be written. Where several agents of one process hold the same set, `others`
 /// spares them to merge it again: a map made of the same is copied.

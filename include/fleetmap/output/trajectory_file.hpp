@@ -11,6 +11,7 @@
 
 namespace fleetmap::output {
 
+/// A pose of base_link in the frame w of its trajectory (ENU or an odometry frame).
 struct StampedPose {
   Stamp stamp;
   Pose T_w_base = Pose::Identity();

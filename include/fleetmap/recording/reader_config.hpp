@@ -19,6 +19,7 @@ struct Topics {
   std::string wheel;   ///< nav_msgs/msg/Odometry
 };
 
+/// Topics and formats of a recording.
 struct ReaderConfig {
   Topics topics;
   KittiConfig kitti;

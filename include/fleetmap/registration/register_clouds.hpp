@@ -13,6 +13,7 @@
 
 namespace fleetmap::registration {
 
+/// Use of a registration: accepted, one of several possible poses, or rejected.
 enum class Verdict { accepted, ambiguous, rejected };
 const char* to_string(Verdict verdict);
 
@@ -31,6 +32,7 @@ struct Mode {
   std::size_t inliers = 0;
 };
 
+/// T_ij, E_ij and C_ij of the paper (Eq. 2), with all poses at which the clouds fit.
 struct RegistrationResult {
   Pose T_target_source = Pose::Identity();  ///< of the first mode
   /// E_ij (Eq. 2), m: root mean square distance from each inlier (source point, moved by T_target_source) to

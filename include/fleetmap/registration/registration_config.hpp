@@ -8,6 +8,7 @@
 
 namespace fleetmap::registration {
 
+/// Method by which spherized clouds are registered.
 enum class Method {
   correlation,  ///< correlative search over the prior's window, all modes, point-to-surfel ICP
   paper,        ///< FPFH, RANSAC, point-to-plane ICP; no prior

@@ -16,7 +16,8 @@
 
 namespace fleetmap::registration {
 
-/// M^s of the paper (Alg. 3), ready for the long-range link.
+/// M^s of the paper (Alg. 3): the map within r_o (SpherizeConfig::radius_m) of the node, in its frame, ready
+/// for the long-range link.
 struct SpherizedCloud {
   Bytes bytes;  ///< to be sent: at most fit.max_bytes
   cloud::PointCloud

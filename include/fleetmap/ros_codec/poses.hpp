@@ -10,6 +10,7 @@
 /// Poses for the tools of ROS 2: what goes out and is not read back.
 namespace fleetmap::ros_codec {
 
+/// A transform between two named frames at a time.
 struct StampedTransform {
   Stamp stamp;
   std::string parent, child;
@@ -29,12 +30,13 @@ Bytes encode(const PoseMsg& pose);
 
 /// A nav_msgs/Path, stamped with its last pose.
 struct PathMsg {
-  struct Place {
+  /// A pose and its stamp.
+  struct StampedPose {
     Stamp stamp;
     Pose T_frame_base = Pose::Identity();
   };
   std::string frame;
-  std::vector<Place> places;
+  std::vector<StampedPose> poses;
 };
 Bytes encode(const PathMsg& path);
 

@@ -10,7 +10,7 @@ namespace fleetmap::run_evaluation {
 
 /// Measures what a run left in `directory`. Writes evaluation.json, and as asked evaluation.html and
 /// map_top.png, map_perspective.png, map_error.png, map_density.png beside it, and puts the numbers into
-/// report.json under "evaluation". What a missing truth does not allow is left out and said in "notes".
+/// report.json under "evaluation". Values that need a missing truth are left out, with a line in "notes".
 ///
 /// Keys: map (of the map that most robots hold), maps (when they differ), agents.ID, pairs, fleet,
 /// alignments, calibration, modes (modes_json()), cpu, links, notes.

@@ -12,6 +12,7 @@
 
 namespace fleetmap::run_evaluation {
 
+/// Truth and options of evaluate_run().
 struct EvaluationInputs {
   /// The true surface in ENU of the run's origin; else that of `truth_file`, else that of DIR/truth.ply.
   std::optional<cloud::PointCloud> truth = std::nullopt;

@@ -13,6 +13,7 @@
 
 namespace fleetmap::run_evaluation {
 
+/// A picture of a map as a PNG file.
 struct MapPicture {
   std::string file;  ///< "map_top.png"
   std::string caption;

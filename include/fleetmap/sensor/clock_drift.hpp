@@ -9,8 +9,8 @@
 namespace fleetmap::sensor {
 
 /// The rate of one sensor's clock against the arrival clock: a straight line, by least squares, through the
-/// least lags of every 30 s of the last half hour. What delays a sample only adds to its lag, so the least of
-/// many is free of it.
+/// least lags of every 30 s of the last half hour. Delays only add to the lag of a sample, so the least lag
+/// of many samples is free of them.
 class ClockDrift {
  public:
   static constexpr Duration kBucket = std::chrono::seconds(30);

@@ -9,10 +9,11 @@
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/sensor/clock_drift.hpp"
-#include "fleetmap/sensor/lag_envelope.hpp"
+#include "fleetmap/sensor/min_lag_filter.hpp"
 
 namespace fleetmap::sensor {
 
+/// A sensor whose stamps are compared with those of the others.
 enum class Source : std::uint8_t { kLidar, kImu, kGps, kWheel };
 inline constexpr std::size_t kSources = 4;
 const char* to_string(Source source);
@@ -22,10 +23,10 @@ const char* to_string(Source source);
 ///
 /// The clock that most sensors share (of equally many, the one nearest to the computer's) is taken as right.
 /// Stamps that are more than kWrong off are corrected: exactly, where the difference is one that time scales
-/// have, else to about 0.1 s, which drivers take to hand a sample on. What is off by less may be a slow
-/// driver and is only reported. A clock that drifts against the right one is reported in ppm, and followed.
-/// The stamps of a sensor that is the only one are compared with the arrivals, reported and used as they are:
-/// nothing shows which of the two clocks is wrong, and no other stamp contradicts them.
+/// have, else to about 0.1 s, which drivers take to hand a sample on. A smaller difference may come from a
+/// slow driver and is only reported. A clock that drifts against the right one is reported in ppm, and
+/// followed. The stamps of a sensor that is the only one are compared with the arrivals, reported and used as
+/// they are: nothing shows which of the two clocks is wrong, and no other stamp contradicts them.
 class ClockOffsets {
  public:
   static constexpr double kReportedOffset = 0.5;  ///< s
@@ -51,7 +52,7 @@ class ClockOffsets {
   struct Track {
     std::optional<Stamp> begun;  ///< arrival of the first sample
     Stamp last_stamp;
-    LagEnvelope envelope;
+    MinLagFilter envelope;
     ClockDrift drift;
     std::optional<double> behind_at_first;  ///< s, when the first bucket of `drift` was complete
     bool known = false;

@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/sensor/lag_envelope.hpp"
+#include "fleetmap/sensor/min_lag_filter.hpp"
 
 namespace fleetmap::sensor {
 
-/// Maps the times of a device that counts from when it was switched on to this computer's clock: by round
-/// trips (as NTP does, of the last ones the shortest), or where the device does not answer by the least lag
-/// of what it sends, which leaves the time that a message is under way.
+/// Maps the time of a device, counted from its start, to this computer's clock. It uses the shortest of the
+/// last round trips, as NTP does, or, if the device does not answer, the least lag of its messages, which
+/// includes their time of transmission.
 class DeviceClock {
  public:
   /// True when the device's clock made a step, as when it was switched on again: what was learnt is
@@ -30,7 +30,7 @@ class DeviceClock {
   };
   const RoundTrip* shortest() const;
 
-  LagEnvelope envelope_;
+  MinLagFilter envelope_;
   std::deque<RoundTrip> round_trips_;
 };
 

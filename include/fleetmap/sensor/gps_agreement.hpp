@@ -25,12 +25,13 @@ class GpsAgreement {
   std::vector<std::string> take_findings();
 
  private:
-  struct Place {
+  /// A fix and the odometry at its stamp.
+  struct MatchedFix {
     Eigen::Vector2d gps, odom;  ///< m
     double sigma;               ///< m, reported by GPS
   };
   void match(const Fix& fix, const Eigen::Vector2d& odom);
-  void check_jump(const Place& place);
+  void check_jump(const MatchedFix& matched);
   void check_track();
 
   std::optional<LocalFrame> frame_;
@@ -40,11 +41,11 @@ class GpsAgreement {
   };
   std::optional<Instant> last_;
   std::deque<Fix> waiting_;
-  std::optional<Place> last_place_;
-  std::deque<Place> track_;  ///< a place every 2 m
-  double driven_ = 0.0;      ///< m, since the track was checked
-  int contradictions_ = 0;   ///< windows in a row
-  bool jump_said_ = false, track_said_ = false;
+  std::optional<MatchedFix> last_matched_;
+  std::deque<MatchedFix> track_;  ///< one every 2 m
+  double driven_ = 0.0;           ///< m, since the track was checked
+  int contradictions_ = 0;        ///< windows in a row
+  bool jump_reported_ = false, track_reported_ = false;
   std::vector<std::string> findings_;
 };
 

@@ -14,7 +14,7 @@ namespace fleetmap::sensor {
 inline constexpr std::string_view kGpsdWatch = "?WATCH={\"enable\":true,\"json\":true};\n";
 
 /// Fixes in the reports of gpsd (gpsd_json(5)): TPV lines; others, as SKY, are passed over. Stamps are the
-/// receiver's UTC. Of which confidence its error estimates are the protocol leaves open; they are taken as
+/// receiver's UTC. The protocol does not define the confidence of its error estimates; they are taken as
 /// standard deviations.
 class GpsdFixes {
  public:

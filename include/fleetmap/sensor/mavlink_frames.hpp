@@ -16,6 +16,7 @@ struct MavlinkFrame {
   Bytes payload;  ///< as sent: v2 leaves out zeros at its end
 };
 
+/// Counters of a stream of MAVLink frames.
 struct MavlinkCounters {
   std::uint64_t frames = 0;  ///< of types that are decoded
   std::uint64_t others = 0;  ///< of other types, whose checksum cannot be computed

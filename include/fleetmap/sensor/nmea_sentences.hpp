@@ -13,6 +13,7 @@
 
 namespace fleetmap::sensor {
 
+/// Counters of a stream of NMEA sentences.
 struct NmeaCounters {
   std::uint64_t sentences = 0;        ///< whole, of any type
   std::uint64_t wrong_checksums = 0;  ///< or none
@@ -44,15 +45,18 @@ struct NmeaGga {
   GeoPoint position{};
   bool has_geoid = false;
 };
+/// RMC: validity and date of a fix.
 struct NmeaRmc {
   Duration time{};
   bool valid = false;
   Stamp midnight;  ///< at which its date begins
 };
+/// GST: standard deviations of a fix.
 struct NmeaGst {
   Duration time{};
   double sigma_east = 0.0, sigma_north = 0.0, sigma_up = 0.0;  ///< m
 };
+/// A sentence of any other type.
 struct NmeaOther {};
 /// A sentence that has no time yet is no fix.
 using NmeaSentence = std::variant<NmeaOther, NmeaGga, NmeaRmc, NmeaGst>;

@@ -36,6 +36,7 @@ tl::expected<OusterPacket, PacketRefusal> read_ouster_packet(ByteView bytes, con
 void append_points(const OusterMetadata& metadata, const OusterColumn& column, double time,
                    std::vector<ScanPoint>& points);
 
+/// A sample of an Ouster's IMU.
 struct OusterImu {
   std::uint64_t time = 0;  ///< ns, by the device's clock, of the gyro
   Imu sample;              ///< without a stamp; its axes are those of `sensor`

@@ -7,11 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "fleetmap/sensor/hour_clock.hpp"
 #include "fleetmap/sensor/ouster_packet.hpp"
+#include "fleetmap/sensor/top_of_hour_clock.hpp"
 
 namespace fleetmap::sensor {
 
+/// Counters of the packets of one Ouster.
 struct OusterCounters {
   std::uint64_t packets = 0;  ///< decoded, of the LiDAR
   /// Left out, since more than a tenth of a turn is missing at their beginning or end: the packets begin or
@@ -37,7 +38,7 @@ class OusterSensor {
 
   const OusterMetadata& metadata() const { return metadata_; }
   const OusterCounters& counters() const { return counters_; }
-  const HourClock& clock() const { return clock_; }
+  const TopOfHourClock& clock() const { return clock_; }
 
  private:
   /// The turn under way.
@@ -54,7 +55,7 @@ class OusterSensor {
   void discard();
 
   OusterMetadata metadata_;
-  HourClock clock_;
+  TopOfHourClock clock_;
   std::optional<Turn> turn_;
   std::size_t late_in_a_row_ = 0;  ///< packets; more than a turn of them are a playback that begins again
   std::deque<Scan> complete_;

@@ -7,6 +7,7 @@
 
 namespace fleetmap::sensor {
 
+/// Cause for which a packet is refused.
 enum class PacketFault : std::uint8_t {
   kSize,    ///< no packet of the device has so many bytes
   kBlock,   ///< a part that contradicts the format or the packets before

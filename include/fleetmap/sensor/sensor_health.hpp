@@ -15,8 +15,8 @@
 namespace fleetmap::sensor {
 
 /// Finds drivers whose samples decode and are wrong all the same: units other than those of the message
-/// definitions, fields that are not filled. What is certain is corrected, the rest refused; either is said
-/// once. Clocks are the task of ClockOffsets.
+/// definitions, fields that are not filled. Errors whose correction is certain are corrected, samples with
+/// others are refused; each is reported once. Clocks are the task of ClockOffsets.
 class SensorHealth {
  public:
   /// Correct the sample, or return false: it must not be used.
@@ -83,7 +83,7 @@ class SensorHealth {
   std::vector<std::string> findings_;
   int impossible_rates_ = 0;  ///< in a row
   bool speed_from_pose_ = false;
-  bool no_altitude_ = false, no_place_ = false, imu_gaps_said_ = false;
+  bool no_altitude_ = false, no_place_ = false, imu_gaps_reported_ = false;
   bool scans_missing_ = false;
 };
 

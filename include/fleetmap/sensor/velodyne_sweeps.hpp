@@ -4,11 +4,12 @@
 #include <deque>
 #include <optional>
 
-#include "fleetmap/sensor/hour_clock.hpp"
+#include "fleetmap/sensor/top_of_hour_clock.hpp"
 #include "fleetmap/sensor/velodyne_packet.hpp"
 
 namespace fleetmap::sensor {
 
+/// Counters of the packets of one Velodyne.
 struct VelodyneCounters {
   std::uint64_t packets = 0;  ///< decoded
   /// Left out, since more than a tenth of a turn is missing at their beginning or end: the packets begin or
@@ -20,7 +21,7 @@ struct VelodyneCounters {
 /// stamp is the time of its first firing, with ring and time of each point.
 class VelodyneSweeps {
  public:
-  /// `arrival` is when the packet was received; it resolves the hour (HourClock).
+  /// `arrival` is when the packet was received; it resolves the hour (TopOfHourClock).
   tl::expected<void, PacketRefusal> add(ByteView packet, Stamp arrival);
   /// No more packets follow.
   void finish();
@@ -28,7 +29,7 @@ class VelodyneSweeps {
   std::optional<Scan> take();
 
   const VelodyneCounters& counters() const { return counters_; }
-  const HourClock& clock() const { return clock_; }
+  const TopOfHourClock& clock() const { return clock_; }
 
  private:
   /// The sweep under way.
@@ -42,7 +43,7 @@ class VelodyneSweeps {
   void end_sweep(bool has_end);
   void discard();
 
-  HourClock clock_;
+  TopOfHourClock clock_;
   const VelodyneModel* model_ = nullptr;
   std::optional<Sweep> sweep_;
   std::deque<Scan> complete_;

@@ -12,6 +12,7 @@ struct GpsOutage {
   double until = 0.0;
 };
 
+/// Rate and errors of the twin's GPS receiver.
 struct GpsSpec {
   bool fitted = true;              ///< the robot has a receiver
   double rate = 5.0;               ///< Hz

@@ -4,6 +4,7 @@
 
 namespace fleetmap::sim {
 
+/// Rate, noise and biases of the twin's IMU.
 struct ImuSpec {
   double rate = 100.0;             ///< Hz
   double gyro_noise = 1e-3;        ///< rad/s/sqrt(Hz)

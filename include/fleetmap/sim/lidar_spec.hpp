@@ -8,6 +8,7 @@
 
 namespace fleetmap::sim {
 
+/// Directions in which a LiDAR fires over time.
 enum class FiringPattern : std::uint8_t {
   kSpinning,      ///< columns of rings, a revolution a scan
   kNonRepeating,  ///< a rosette that fills its field of view over time (Livox-like)

@@ -10,11 +10,13 @@
 
 namespace fleetmap::sim {
 
+/// A ray in the frame of the mesh, m.
 struct Ray {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;  ///< unit
 };
 
+/// First intersection of a ray with the mesh.
 struct Hit {
   float distance = -1.0f;      ///< m; negative: nothing within reach
   float cos_incidence = 0.0f;  ///< in [0, 1], 1: head on

@@ -4,6 +4,7 @@
 
 namespace fleetmap::sim {
 
+/// Rate, slip and noise of the twin's wheel odometry.
 struct WheelSpec {
   double rate = 20.0;             ///< Hz
   double scale_sigma = 0.01;      ///< of the speed, constant for a robot: tyres

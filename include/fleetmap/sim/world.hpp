@@ -12,6 +12,7 @@
 
 namespace fleetmap::sim {
 
+/// Horizontal rectangle in the world's ENU frame, m.
 struct WorldBounds {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d high = Eigen::Vector2d::Zero();

@@ -33,6 +33,7 @@ struct MapOutline {
   std::uint8_t add_submap(const NodeId& id, const cloud::PointCloud& submap);
 };
 
+/// A merged map as one cloud.
 struct MergedMap : MapOutline {
   cloud::PointCloud cloud;  ///< in the frame of the poses (ENU of the site's origin)
   /// For each point of `cloud` the index in `agents` of the agent that was first to see its voxel.

@@ -6,6 +6,7 @@
 
 namespace fleetmap::store {
 
+/// Bound of the log of registrations.
 struct RegistrationLogConfig {
   /// Bytes that the file may take. The oldest registrations make room for new ones; one takes up to 50 kB.
   std::uint64_t max_bytes = 500'000'000;

@@ -14,9 +14,9 @@ namespace fleetmap::store {
 /// The sessions of a robot that began with this store, in their order. A session is an odometry frame: one
 /// begins with each start of the program and whenever the odometry begins anew.
 ///
-/// Their numbers are drawn at random, since the store cannot tell which ones were used: a lost, restored or
-/// replaced one knows less than the fleet does. 65,535 numbers make it unlikely (1 in 650 for a robot that
-/// lost a hundred sessions) that one is drawn twice.
+/// Their numbers are drawn at random, since a lost, restored or replaced store lacks sessions that the fleet
+/// has, so the used numbers cannot be derived from it. 65,535 numbers make it unlikely (1 in 650 for a robot
+/// that lost a hundred sessions) that one is drawn twice.
 class Sessions {
  public:
   using Draw = std::function<std::uint16_t()>;

@@ -36,6 +36,7 @@ enum class Put : std::uint8_t {
               ///< counted
 };
 
+/// Counters of a store since it was opened.
 struct StoreStats {
   std::uint64_t added = 0;
   std::uint64_t known = 0;

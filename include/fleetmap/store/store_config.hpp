@@ -7,6 +7,7 @@
 
 namespace fleetmap::store {
 
+/// Bounds and durability of a store.
 struct StoreConfig {
   std::uint32_t max_submap_bytes = 8u << 20;  ///< bytes, nodes that announce a larger submap are refused
   /// Own items and named values survive a power cut as soon as they are put (one disk sync each), and all

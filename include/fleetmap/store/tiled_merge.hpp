@@ -13,12 +13,14 @@
 
 namespace fleetmap::store {
 
+/// The points of one tile of a map, in the frame of the poses.
 struct MapTile {
   cloud::PointCloud cloud;
   std::vector<std::uint8_t> observed_by;  ///< see MergedMap::observed_by
 };
 using TileSink = std::function<Status(const MapTile&)>;
 
+/// Cost of a merge.
 struct TiledMergeStats {
   std::size_t loads = 0;         ///< of submaps
   std::size_t largest_tile = 0;  ///< points

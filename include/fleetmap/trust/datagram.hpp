@@ -60,6 +60,7 @@ struct NotOpened {
   std::uint16_t epoch = 0;  ///< of a greeting
 };
 
+/// Content of a datagram whose seal is valid.
 struct Opened {
   DatagramKind kind = DatagramKind::kMessage;
   Session session{};

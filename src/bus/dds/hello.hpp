@@ -19,7 +19,7 @@ struct Introduction {
   AgentId agent;
   std::array<std::uint8_t, 4> address{};
   std::uint16_t port = 0;
-  Duration heard_ago{};   ///< since somebody heard the robot itself, to 0.1 s, at most 6553 s
+  Duration heard_ago{};   ///< since a Hello of the robot itself was received, to 0.1 s, at most 6553 s
   Duration joined_ago{};  ///< since the robot joined, to 1 s, at most 255 s
   bool operator==(const Introduction&) const = default;
 };

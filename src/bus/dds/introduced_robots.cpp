@@ -17,7 +17,7 @@ using eprosima::fastrtps::rtps::IPLocator;
 
 /// A robot that joined at most so long before this one seeks it, too, so that a Hello to it can wait.
 constexpr auto kJoinsWithUs = std::chrono::seconds(10);
-/// Hellos to an address that introduce others; later ones are short, since nobody may be there.
+/// The first Hellos to an address introduce others; later ones are short, since no robot may be there.
 constexpr int kIntroducing = 2;
 constexpr int kSoughtFirst = 4;
 constexpr double kMinWait = 2.0, kMaxWait = 5.0;  // s
@@ -36,9 +36,9 @@ bool RadioLink::Hellos::introduces() const {
   return radio_.link_ == Link::kLongRange && !radio_.guard_ && radio_.settings_;
 }
 
-/// The least is sent a Hello first: answers, where each pair must meet by itself. Where robots are
-/// introduced, those that are sought, unless they have been silent so often that they may be off; then
-/// answers; then introduced ones.
+/// The remote of least rank gets the next Hello. Without introductions answers come first, because each pair
+/// must meet by itself. With introductions the order is: sought robots, unless they were silent so often that
+/// they may be off; answers; introduced robots.
 int RadioLink::Hellos::rank(const RemoteLocator& remote) const {
   if (!introduces()) return remote.robot || remote.claimed ? 0 : 1;
   if (!remote.robot) return remote.hellos_sent < kSoughtFirst ? 0 : 1;
@@ -54,8 +54,8 @@ std::set<RadioLink::EntityKey> RadioLink::Hellos::reads_of(const AgentId& robot)
   return keys;
 }
 
-/// It could be introduced by its name and address alone.
-bool RadioLink::Hellos::is_alike(const Hello& hello) const {
+/// The sender has this robot's settings and topics, so its name and address suffice to introduce it.
+bool RadioLink::Hellos::shares_settings(const Hello& hello) const {
   return hello.settings && hello.settings == radio_.settings_ &&
          hello.multicast == radio_.config_.multicast &&
          std::set<EntityKey>(hello.reads.begin(), hello.reads.end()) == reads_of(hello.sender);
@@ -68,13 +68,13 @@ std::vector<Introduction> RadioLink::Hellos::introductions_to(const RemoteLocato
   if (!remote.robot && remote.hellos_sent >= kIntroducing) return {};
   if (remote.robot) {
     const Peer& there = radio_.peers_.at(*remote.robot);
-    if (!there.alike || there.seeks == 0) return {};
+    if (!there.shares_settings || there.seeks == 0) return {};
     recipient = bytes_of(*remote.robot);
     joined_ago = std::chrono::duration_cast<Duration>(now - there.joined);
   }
   std::vector<Introduction> known;
   for (const auto& [robot, peer] : radio_.peers_) {
-    if (!peer.alike) continue;
+    if (!peer.shares_settings) continue;
     const auto heard = radio_.last_heard(robot);
     if (!heard) continue;
     Introduction& one = known.emplace_back();
@@ -90,10 +90,10 @@ std::vector<Introduction> RadioLink::Hellos::introductions_to(const RemoteLocato
 
 void RadioLink::Hellos::on_introductions(const Prefix& sender, const Hello& hello) {
   radio_.introductions_.note_known(bytes_of(sender), hello.introduces);
-  if (!radio_.peers_.at(sender).alike) return;
+  if (!radio_.peers_.at(sender).shares_settings) return;
   bool any = false;
   for (const Introduction& introduction : hello.introduces)
-    any |= radio_.introductions_.believes(introduction) && introduce(introduction, hello.sender);
+    any |= radio_.introductions_.accepts(introduction) && introduce(introduction, hello.sender);
   if (any) seek_sooner();
 }
 
@@ -152,8 +152,8 @@ bool RadioLink::Hellos::introduce(const Introduction& introduction, const AgentI
           .locator = remote->locator,
           .reads = reads_of(introduction.agent),
           .multicast = radio_.config_.multicast,
-          .seeks = 0,  // `by` tells it whom it lacks
-          .alike = true,
+          .seeks = 0,  // `by` introduces the others to it
+          .shares_settings = true,
           .joined = now - introduction.joined_ago,
           .introduced = heard,
           .last_sent = now,

@@ -38,7 +38,7 @@ void Introductions::forget(const Prefix& robot) {
 
 void Introductions::meet(const Prefix& robot) { std::erase(gone_, robot); }
 
-bool Introductions::believes(const Introduction& introduction) const {
+bool Introductions::accepts(const Introduction& introduction) const {
   return introduction.heard_ago <= kFresh && std::ranges::find(gone_, introduction.prefix) == gone_.end();
 }
 

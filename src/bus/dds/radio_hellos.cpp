@@ -304,7 +304,7 @@ void RadioLink::Hellos::meet(const Prefix& sender, const Hello& hello, const Acq
   peer.reads = {hello.reads.begin(), hello.reads.end()};
   peer.multicast = hello.multicast;
   peer.seeks = hello.seeks;
-  peer.alike = introduces() && is_alike(hello);
+  peer.shares_settings = introduces() && shares_settings(hello);
   peer.joined = Clock::now() - hello.joined_ago;
   peer.introduced.reset();
   radio_.introductions_.meet(bytes_of(sender));

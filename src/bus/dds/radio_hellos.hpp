@@ -47,7 +47,7 @@ class RadioLink::Hellos {
   bool introduces() const;
   int rank(const RemoteLocator& remote) const;
   std::set<EntityKey> reads_of(const AgentId& robot) const;
-  bool is_alike(const Hello& hello) const;
+  bool shares_settings(const Hello& hello) const;
   std::vector<Introduction> introductions_to(const RemoteLocator& remote) const;
   void on_introductions(const Prefix& sender, const Hello& hello);
   bool introduce(const Introduction& introduction, const AgentId& by);

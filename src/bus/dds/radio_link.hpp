@@ -97,10 +97,10 @@ class RadioLink final : public LinkEnd {
     AgentId agent;
     Locator locator;
     std::set<EntityKey> reads;
-    bool multicast = false;      ///< it listens at the group
-    std::uint8_t seeks = 255;    ///< robots that it does not know, as it says
-    bool alike = false;          ///< it has this robot's settings and topics
-    Clock::time_point joined{};  ///< as it says
+    bool multicast = false;        ///< it listens at the group
+    std::uint8_t seeks = 255;      ///< robots it does not know yet, by its last Hello
+    bool shares_settings = false;  ///< it has this robot's settings and topics
+    Clock::time_point joined{};    ///< when it started, by its last Hello
     /// Another robot introduced it: when it is said to have been heard. Empty once a Hello of its own came.
     std::optional<Clock::time_point> introduced;
     bool spoke = false;              ///< of an introduced one: data came from it

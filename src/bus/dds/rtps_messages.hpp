@@ -39,7 +39,7 @@ bool send(eprosima::fastrtps::rtps::RTPSWriter& writer, eprosima::fastrtps::rtps
 std::optional<Bytes> taken(eprosima::fastrtps::rtps::RTPSReader& reader,
                            const eprosima::fastrtps::rtps::CacheChange_t* change);
 /// By the clocks of the machine that set the stamp and of this one. Empty if the message carries no stamp, or
-/// one that no clock shows: whoever reaches the radio may write any.
+/// one that no clock can have, since a forged message may contain any.
 std::optional<Duration> since(const eprosima::fastrtps::rtps::Time_t& stamp);
 
 eprosima::fastrtps::rtps::HistoryAttributes unbounded_history();

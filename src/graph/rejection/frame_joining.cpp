@@ -138,7 +138,7 @@ struct RoundInput {
   const TrialExclusions& exclusions;
   const SolvedGraph& solved;
   const Accepted& accepted;
-  bool first_round = false;  ///< candidates that neighbours reject wait for the second one
+  bool first_round = false;  ///< candidates that neighbours reject are tried from the second on
 };
 
 Gating gate(const RoundInput& input) {

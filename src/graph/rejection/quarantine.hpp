@@ -18,10 +18,10 @@ std::map<AgentId, std::size_t> outlier_sets(const ReducedGraph& graph, std::span
                                             const std::map<std::size_t, AlignmentStatus>& statuses,
                                             std::span<const AgentId> computed_by, const Estimate& estimate);
 
-/// No model in the literature leaves out agents by their record; bench_rejection shows what it is worth.
-///
-/// Agents with four outlier sets or more, and at least twice as many as accepted alignments: none of the
+/// Agents with four outlier sets or more, and at least twice as many as accepted alignments. None of the
 /// alignments that they computed is used. `accepted` are the numbers of accepted alignments by agent.
+///
+/// No publication that we know excludes agents by their record; bench_rejection measures the effect.
 std::set<AgentId> to_quarantine(const std::map<AgentId, std::size_t>& outlier_sets,
                                 const std::map<AgentId, std::size_t>& accepted);
 

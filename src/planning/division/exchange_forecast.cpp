@@ -115,7 +115,8 @@ class Simulation {
     holds_[k][k] = bytes_per_metre() * driven;
   }
 
-  /// One step of the channel: in equal shares to all who want something that somebody near them has.
+  /// One step of the channel, whose rate is divided equally among the robots that lack something that a robot
+  /// in reach holds.
   void flow() {
     const std::size_t n = robots_.size();
     demands_.clear();
@@ -180,7 +181,7 @@ class Simulation {
     }
     return reached.size() == robots_.size();
   }
-  /// All are at the end: from now on the channel is busy until nobody lacks anything.
+  /// All robots are at the end, so the channel is busy until every robot has everything.
   double completion(double now) const {
     double bytes = 0.0;
     for (std::size_t k = 0; k < robots_.size(); ++k) {

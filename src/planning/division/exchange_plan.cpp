@@ -15,7 +15,7 @@ namespace {
 constexpr double kWithinReach = 0.8;   // of C_max: what two who stop are apart at most
 constexpr std::size_t kBins = 8;       // of the time of the mission: one stop a pair is tried in each
 constexpr std::size_t kMaxTried = 48;  // pairs of gaps between rows, before each stop that is added
-/// Robots are late by some percent; what is gained only if nobody is, is not gained.
+/// Delays of robots under which a stop must still gain, since robots are late by some percent.
 constexpr Pace kLate[] = {{1.05, 0}, {1.05, 1}};
 constexpr double kPrefersEarly = 0.02;  // s a second that a robot waits at a stop, even if it has time
 
@@ -221,7 +221,7 @@ class Planner {
     return {robot, after, stands, 0.0};
   }
 
-  /// The gain does not hang on meeting somebody by chance at the right second.
+  /// True if the gain remains when robots are late, so that it does not depend on a chance meeting.
   bool lasts(const std::vector<Itinerary>& drives, std::span<const double> late) const {
     for (std::size_t k = 0; k < std::size(kLate); ++k) {
       const double bound = late[k] - std::max(config_.min_gain, 1e-3);

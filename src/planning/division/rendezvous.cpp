@@ -9,24 +9,24 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-struct Choice {
+struct Candidate {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   double latest = kNever;
   double sum = kNever;
-  bool operator<(const Choice& o) const {
+  bool operator<(const Candidate& o) const {
     return latest < o.latest - 1e-6 || (latest < o.latest + 1e-6 && sum < o.sum - 1e-6);
   }
 };
 
-Choice choice_at(const Eigen::Vector2d& place, std::span<const double> distances,
-                 std::span<const Arrival> arrivals) {
-  Choice choice{place, 0.0, 0.0};
+Candidate candidate_at(const Eigen::Vector2d& place, std::span<const double> distances,
+                       std::span<const Arrival> arrivals) {
+  Candidate candidate{place, 0.0, 0.0};
   for (std::size_t k = 0; k < arrivals.size(); ++k) {
     const double time = arrivals[k].time + distances[k] / arrivals[k].speed;
-    choice.latest = std::max(choice.latest, time);
-    choice.sum += time;
+    candidate.latest = std::max(candidate.latest, time);
+    candidate.sum += time;
   }
-  return choice;
+  return candidate;
 }
 
 /// Clear points around `place` on a square lattice, from the inside out, that see it.
@@ -65,25 +65,25 @@ std::vector<RoutePlanner::Anchor> places_between(const RoutePlanner& planner,
 }
 
 /// The earliest of all graph vertices, all ends of routes and some points between these.
-Choice best_place(const RoutePlanner& planner, std::span<const Arrival> arrivals) {
+Candidate best_place(const RoutePlanner& planner, std::span<const Arrival> arrivals) {
   std::vector<RoutePlanner::Anchor> anchors;
   for (const Arrival& arrival : arrivals) anchors.push_back(planner.anchor(arrival.position));
   std::vector<std::vector<double>> far;
   for (const RoutePlanner::Anchor& anchor : anchors) far.push_back(planner.distances(anchor));
-  Choice best;
+  Candidate best;
   std::vector<double> distances(arrivals.size());
   for (std::size_t v = 0; v < planner.vertices().size(); ++v) {
     for (std::size_t k = 0; k < arrivals.size(); ++k) distances[k] = far[k][v];
-    const Choice choice = choice_at(planner.vertices()[v], distances, arrivals);
-    if (choice < best) best = choice;
+    const Candidate candidate = candidate_at(planner.vertices()[v], distances, arrivals);
+    if (candidate < best) best = candidate;
   }
   const std::vector<RoutePlanner::Anchor> places = places_between(planner, arrivals);
   std::vector<std::vector<RoutePlanner::Leg>> legs;  // one search for each robot
   for (const RoutePlanner::Anchor& anchor : anchors) legs.push_back(planner.legs(anchor, places));
   for (std::size_t place = 0; place < places.size(); ++place) {
     for (std::size_t k = 0; k < arrivals.size(); ++k) distances[k] = legs[k][place].length;
-    const Choice choice = choice_at(places[place].free, distances, arrivals);
-    if (choice < best) best = choice;
+    const Candidate candidate = candidate_at(places[place].free, distances, arrivals);
+    if (candidate < best) best = candidate;
   }
   return best;
 }
@@ -94,7 +94,7 @@ Result<MeetingPlace> meeting_place(const RoutePlanner& planner, std::span<const 
                                    const RendezvousConfig& config) {
   if (const Status status = config.validate(); !status) return tl::unexpected(status.error());
   if (arrivals.empty()) return failure("rendezvous: no robots");
-  const Choice best = best_place(planner, arrivals);
+  const Candidate best = best_place(planner, arrivals);
   if (!std::isfinite(best.latest)) {
     return failure(
         "rendezvous: there is no place that all robots can reach; check the keep-outs between them");

@@ -134,7 +134,7 @@ double LocalField::cost(const Eigen::Vector2d& p) const {
   const double fy = std::clamp((p.y() + reach_) / kCoarse - 0.5, 0.0, coarse_ - 1.001);
   const int x = static_cast<int>(fx);
   const int y = static_cast<int>(fy);
-  // Cells without a way say nothing about those beside them.
+  // Unreachable cells are left out of the interpolation, since those beside them may be reachable.
   double sum = 0.0;
   double weights = 0.0;
   for (int dy = 0; dy < 2; ++dy) {

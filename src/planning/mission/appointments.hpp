@@ -10,8 +10,9 @@
 
 namespace fleetmap::planning {
 
-/// The stops that the plan has for one robot, as long as it and its partner drive what the plan says. Who
-/// takes or gives rows keeps none of them; the others see that in the rows it claims.
+/// The stops that the plan has for one robot. They are valid while the robot and its partner drive the rows
+/// of the plan: a robot that takes or gives rows drops all of its stops, and its partners detect that in the
+/// rows that it claims.
 class Appointments {
  public:
   Appointments(const FleetPlan& plan, std::size_t self);

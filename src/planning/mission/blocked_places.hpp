@@ -10,8 +10,8 @@
 
 namespace fleetmap::planning {
 
-/// Places at which a robot was stuck lately. What is not on the site's drawing is met only on the way, and
-/// the next way leads around it.
+/// Places at which a robot was stuck lately. Obstacles that the site's drawing lacks are found only while
+/// driving; later routes lead around them.
 class BlockedPlaces {
  public:
   static constexpr std::size_t kMaxPlaces = 12;

@@ -139,7 +139,7 @@ void ExecutiveState::update_claims(Stamp now) {
 /// On schedule of a plan with stops, which lets some robots be done before others on purpose.
 bool ExecutiveState::on_schedule(Stamp now) const {
   if (!appointments.keeps_order()) return false;
-  if (appointments.next()) return true;  // whoever comes to the stop counts on it
+  if (appointments.next()) return true;  // the partner at the stop waits for it
   const double end = to_seconds(now - begun_at_) + board.remaining(self);
   return end < plan->division.routes[self].time + rules().offer_gain;
 }

@@ -32,11 +32,12 @@ class MissionBoard {
   std::size_t rows() const { return plan_->mission.rows.size(); }
   std::size_t robots() const { return plan_->fleet.size(); }
   /// A row counts as driven if this robot drove it, if the robot that the plan gives it to says so in its
-  /// last report and is not lost, or if any report said so and nodes lie along it. So a forged report lasts
-  /// until the next one of that robot or until the robot is lost, and nobody repeats for good what it says.
+  /// last report and is not lost, or if any report said so and nodes lie along it. So a forged report counts
+  /// until the next one of that robot or until the robot is lost, and the reports of other robots do not
+  /// repeat it for longer.
   const RowSet& done() const { return done_; }
   /// Rows that count as driven, but along which no nodes lie, and the robot that says that it drove them.
-  /// None as long as no row at all has nodes along it, as where nobody knows its place.
+  /// None as long as no row at all has nodes along it, as without GPS.
   std::vector<std::pair<std::size_t, std::size_t>> unconfirmed() const;
   /// Heard of lately (or not yet missed), and able to take rows.
   bool available(std::size_t robot, Stamp now) const;
@@ -66,7 +67,7 @@ class MissionBoard {
   /// Done or abandoned.
   bool finished(std::size_t row, Stamp now) const { return done_.has(row) || abandoned(row, now); }
   bool all_finished(Stamp now) const;
-  /// Not finished and claimed by nobody who is available, by us neither.
+  /// Not finished, and claimed by no robot that is available, this one included.
   std::vector<std::size_t> orphans(Stamp now) const;
   /// s that a robot still needs for what it claims, roughly.
   double remaining(std::size_t robot) const;

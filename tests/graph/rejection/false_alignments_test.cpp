@@ -102,7 +102,7 @@ TEST(FalseAlignments, WhenAllBetweenTwoRobotsAreFalseAThirdTiesThem) {
 
 /// GPS cannot tell which side of the triangle is false: none of what it may be is taken, nor what fewer say
 /// of the same robots, and none of it counts against who computed it.
-TEST(FalseAlignments, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
+TEST(FalseAlignments, PairsAreNotJoinedIfTheFalseOneCannotBeDetermined) {
   std::size_t apart = 0;
   for (unsigned seed = 0; seed < 10; ++seed) {
     SimulatedFleet fleet(seed, triangle(80.0, 5.0));
@@ -113,7 +113,8 @@ TEST(FalseAlignments, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
     const Placement placement = place(fleet);
     expect_none_used(placement, false_ones, of(seed));
     expect_none_used(placement, names_from(fleet, known), of(seed));
-    for (const auto& [agent, credit] : placement.credits) EXPECT_FALSE(credit.quarantined) << agent.str();
+    for (const auto& [agent, credit] : placement.alignment_stats)
+      EXPECT_FALSE(credit.quarantined) << agent.str();
     if (placement.components.size() != 3) continue;
     ++apart;
     const auto status = statuses(placement);
@@ -123,7 +124,7 @@ TEST(FalseAlignments, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
 }
 
 /// Two of five alignments along the way are true and agree; each has more neighbours against it than for it.
-TEST(FalseAlignments, WhereNeighboursOutvoteAllTheyDecideNothing) {
+TEST(FalseAlignments, VotesThatRejectEveryNeighbourDecideNothing) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     SimulatedFleetConfig config;
     config.robots = 2;
@@ -169,9 +170,9 @@ TEST(FalseAlignments, ARobotThatComputesGarbageIsQuarantinedAndBendsNothing) {
       }
     }
     const Placement placement = place(fleet);
-    EXPECT_TRUE(placement.credits.at(faulty).quarantined) << "seed " << seed;
-    EXPECT_EQ(placement.credits.at(faulty).used, 0u);
-    for (const AgentId& other : others) EXPECT_FALSE(placement.credits.at(other).quarantined);
+    EXPECT_TRUE(placement.alignment_stats.at(faulty).quarantined) << "seed " << seed;
+    EXPECT_EQ(placement.alignment_stats.at(faulty).used, 0u);
+    for (const AgentId& other : others) EXPECT_FALSE(placement.alignment_stats.at(other).quarantined);
     EXPECT_NEAR(joint_error(fleet, placement, others), undisturbed, 0.02) << "seed " << seed;
   }
 }
@@ -243,7 +244,7 @@ TEST(FalseAlignments, AnAmbiguousAlignmentAllOfWhoseModesAreContradictedIsReject
   }
 }
 
-TEST(FalseAlignments, OfALongMissionWithOneInFiveFalseAllTrueAndNoFalseOnesAreUsed) {
+TEST(FalseAlignments, LongMissionWithTwentyPercentFalseUsesExactlyTheTrueOnes) {
   for (unsigned seed = 1; seed <= seeds_to_run(3); ++seed) {
     SimulatedFleet fleet(seed, testing::long_mission(4, 700));
     const auto false_ones = fleet.align_neighbours(8, 0.2);
@@ -262,7 +263,7 @@ TEST(FalseAlignments, OfALongMissionWithOneInFiveFalseAllTrueAndNoFalseOnesAreUs
 }
 
 /// If GPS is so poor that almost any alignments agree, the votes of neighbours reject the false ones.
-TEST(FalseAlignments, OfALongMissionAtFiveMetresOfGpsOneInFiveFalseAllTrueAndNoFalseOnesAreUsed) {
+TEST(FalseAlignments, LongMissionAtFiveMetresOfGpsUsesExactlyTheTrueOnes) {
   for (const unsigned seed : {1u, 3u}) {
     SimulatedFleetConfig config = testing::long_mission(5, 2000);
     config.filtered = true;

@@ -99,7 +99,7 @@ TEST(LoopCheck, LoopsThatCloseAreLeftAsTheyAre) {
   EXPECT_TRUE(result.joined.solved);
 }
 
-TEST(LoopCheck, OfAFalseSideNothingIsAccepted) {
+TEST(LoopCheck, NothingOfAFalseSideIsAccepted) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const SimulatedFleet fleet = triangle(seed, 1.5);
     const ReducedFleet reduced(fleet);

@@ -52,7 +52,7 @@ TEST(NeighbourVotes, AFalseOneAmongTrueOnesIsRejectedEvenWhereGpsTellsNothing) {
   }
 }
 
-TEST(NeighbourVotes, WhereAllCompatibleOnesAreRejectedTheyDecideNothing) {
+TEST(NeighbourVotes, VotesThatRejectAllCompatibleOnesDecideNothing) {
   const std::vector<Eigen::Vector3d> shifts{
       {3.0, 2.0, 0.0}, {0.0, 0.0, 0.0}, {-2.0, -4.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 5.0, 0.0}};
   const SimulatedFleet fleet = aligned_at(shifts, 5.0);

@@ -53,7 +53,7 @@ TEST(OutlierRejection, TheEstimateIsThatOfTheAcceptedAlignments) {
     EXPECT_LT((again.T_enu[p].translation() - result.estimate.T_enu[p].translation()).norm(), 1e-3);
 }
 
-TEST(OutlierRejection, OfAQuarantinedAgentNoCandidateIsLeft) {
+TEST(OutlierRejection, QuarantinedAgentHasNoCandidates) {
   SimulatedFleetConfig config;
   config.robots = 4;
   config.reach = 40.0;

@@ -114,7 +114,7 @@ TEST(DivisionSearch, TheSameSeedGivesTheSameAnswer) {
   EXPECT_EQ(orders(site.search(workers)), orders(site.search(workers)));
 }
 
-TEST(DivisionSearch, WhoIsBusyOrHasNoBatteryGetsNothing) {
+TEST(DivisionSearch, BusyRobotsAndEmptyBatteriesGetNoRows) {
   const Site site;
   auto workers = site.workers(3);
   workers[1].busy = 1e5;

@@ -42,7 +42,7 @@ TEST(ExchangeForecast, OneRobotIsCompleteWhenItArrives) {
   EXPECT_EQ(forecast.bytes_total, 0.0);
 }
 
-TEST(ExchangeForecast, WhoMeetAtTheEndExchangeAllThere) {
+TEST(ExchangeForecast, RobotsThatMeetAtTheEndExchangeAllThere) {
   RendezvousConfig config = settings();
   config.c_max = 1.0;
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
@@ -53,7 +53,7 @@ TEST(ExchangeForecast, WhoMeetAtTheEndExchangeAllThere) {
   EXPECT_NEAR(forecast.completion, 100.0 + 9.5, 1e-6);
 }
 
-TEST(ExchangeForecast, WhoDriveSideBySideExchangeUnderWay) {
+TEST(ExchangeForecast, RobotsSideBySideExchangeUnderWay) {
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
                                      {straight({0, 10}, {100, 10}, 100.0)}};
   RendezvousConfig config = settings();
@@ -69,7 +69,7 @@ TEST(ExchangeForecast, WhoDriveSideBySideExchangeUnderWay) {
   EXPECT_NEAR(forecast_exchange(fleet, 0, config, kForever).bytes_in_passing, 495.0, 1e-6);
 }
 
-TEST(ExchangeForecast, WhoNeedsLittleLeavesItsShareToTheOthers) {
+TEST(ExchangeForecast, RobotThatNeedsLittleLeavesItsShareToTheOthers) {
   // 1 B and 10 B each second, over 8 B/s.
   const std::vector<Itinerary> fleet{{straight({0, 0}, {10, 0}, 100.0)},
                                      {straight({0, 10}, {100, 10}, 100.0)}};
@@ -89,7 +89,7 @@ TEST(ExchangeForecast, TheOneInTheMiddlePassesMapsOn) {
   EXPECT_NEAR(forecast.completion, 100.08, 1e-6);
 }
 
-TEST(ExchangeForecast, WhoIsOutOfReachAtTheEndNeverCompletes) {
+TEST(ExchangeForecast, RobotOutOfReachAtTheEndNeverCompletes) {
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
                                      {straight({0, 70}, {100, 70}, 90.0)}};
   const Forecast forecast = forecast_exchange(fleet, 0, settings(), kForever);
@@ -115,7 +115,7 @@ TEST(ExchangeForecast, TwoAtAStopGoOnSomeTimeAfterTheyHoldTheSame) {
   EXPECT_NEAR(forecast.completion, 152.2, 1e-6);
 }
 
-TEST(ExchangeForecast, WhoWaitsInVainIsGivenUp) {
+TEST(ExchangeForecast, StopWithoutThePartnerIsAbandoned) {
   RendezvousConfig config = settings();
   config.c_max = 0.5;
   // Each waits for the other at another stop.

@@ -41,7 +41,7 @@ struct Field {
   }
 };
 
-TEST(ExchangePlan, WhoDriveSideBySideHaveNothingLeftForTheMeeting) {
+TEST(ExchangePlan, RobotsSideBySideHaveNothingLeftForTheMeeting) {
   Field field;
   field.add({0, 0}, 2, 300.0, {600, 0});
   field.add({0, 50}, 2, 300.0, {600, 50});
@@ -53,7 +53,7 @@ TEST(ExchangePlan, WhoDriveSideBySideHaveNothingLeftForTheMeeting) {
   EXPECT_TRUE(plan.stops.empty());
 }
 
-TEST(ExchangePlan, WhatDidNotFlowOnTheWayTakesItsTimeAtTheMeeting) {
+TEST(ExchangePlan, RemainingMapsTakeTimeAtTheMeeting) {
   Field field;
   field.add({0, 0}, 2, 300.0, {600, 100});
   field.add({0, 200}, 2, 300.0, {600, 100});
@@ -82,7 +82,7 @@ TEST(ExchangePlan, TwoWhoEndTogetherGainNothingByAStop) {
   EXPECT_GT(plan.rejected, 0);
 }
 
-TEST(ExchangePlan, WhoHasTimeFetchesMapsFromTheLastRobotAndPassesThemOn) {
+TEST(ExchangePlan, RobotWithTimeFetchesMapsFromTheLastOneAndPassesThemOn) {
   // The third robot drives far away and back. The others wait for it where all meet, out of its reach.
   Field field;
   field.add({0, 0}, 2, 300.0, {600, 150});

@@ -127,7 +127,7 @@ TEST_F(AppointmentsTest, AStopIsDueBetweenItsRows) {
   EXPECT_TRUE(appointments.keeps_order());
 }
 
-TEST_F(AppointmentsTest, WhoTakesGivesOrReordersRowsKeepsNone) {
+TEST_F(AppointmentsTest, RobotThatTakesGivesOrReordersRowsHasNoAppointments) {
   const auto drops_all = [&](const std::vector<std::size_t>& mine, std::optional<std::size_t> current = {}) {
     Appointments appointments(*plan_, kSelf);
     appointments.update(mine, current);

@@ -50,7 +50,7 @@ TEST(BlockedPlaces, TheWayLeadsAroundThemUntilTheyAreOld) {
   EXPECT_TRUE(blocked.places().empty());
 }
 
-TEST(BlockedPlaces, WhereThereIsNoWayAroundTheWayLeadsThrough) {
+TEST(BlockedPlaces, RouteLeadsThroughPlacesThatCannotBeAvoided) {
   const RoutePlanner planner = ground();
   BlockedPlaces blocked;
   // The goal itself is blocked.

@@ -118,7 +118,7 @@ TEST(ExchangeStops, NobodyWaitsForOneWithoutBattery) {
   EXPECT_GE(fleet.robots[stop.parts[1].robot].executive->status().stops_dropped, 1u);
 }
 
-TEST(ExchangeStops, WhoStandsAtAStopInVainGoesOn) {
+TEST(ExchangeStops, RobotThatWaitsInVainAtAStopGoesOn) {
   // The partner says that it drives its rows, but a gate keeps it.
   VirtualFleet fleet = fleet_on(with_stops());
   const Detour& stop = first_stop();

@@ -58,7 +58,7 @@ TEST_F(ExecutiveStateTest, ADrivenRowIsDoneAndTheNextOneFollows) {
   EXPECT_EQ(state_.path_number, path + 1);
 }
 
-TEST_F(ExecutiveStateTest, WhatTheFollowerSaysOfAnOlderPathIsIgnored) {
+TEST_F(ExecutiveStateTest, ProgressOnAnOlderPathIsIgnored) {
   set_out();
   const std::size_t row = state_.claims.current().value();
   MissionInput old = input(1.0);

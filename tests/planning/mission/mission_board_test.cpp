@@ -145,7 +145,7 @@ TEST_F(MissionBoardTest, ARobotWithoutReportsIsLostAndItsRowsAreOrphans) {
   EXPECT_FALSE(board_.lost(0, at(120.0)));
 }
 
-TEST_F(MissionBoardTest, OfTwoClaimsTheOneUnderWayAndThenTheLowerNameGoesFirst) {
+TEST_F(MissionBoardTest, ClaimUnderWayAndThenTheLowerNameHasPrecedence) {
   const std::size_t row = row_of(1);
   const auto claim = [&](std::size_t robot, bool under_way, double stamp) {
     MissionReport report = this->report(robot, stamp);

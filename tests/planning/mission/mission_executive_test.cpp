@@ -290,7 +290,7 @@ TEST(MissionExecutive, ForgedReportsMakeNobodySkipARow) {
   }
 }
 
-TEST(MissionExecutive, WhatOthersOnlyHeardCountsWhereNodesLieAlongTheRow) {
+TEST(MissionExecutive, HearsayCountsForRowsWithNodesAlongThem) {
   const auto plan = plan_for(3);
   auto executive = *MissionExecutive::create(plan, testing::name(0));
   MissionInput input{stamp_from_ns(1), plan->fleet[0].start};

@@ -28,7 +28,7 @@ TEST(RowCoverage, APartIsNotTheRow) {
   EXPECT_TRUE(coverage.covered().has(2));
 }
 
-TEST(RowCoverage, WhoeverCrossesARowDoesNotDriveIt) {
+TEST(RowCoverage, CrossingARowDoesNotCoverIt) {
   RowCoverage coverage(three_rows());
   for (int east = -20; east <= 60; east += 2) coverage.add({east, 50.0});
   EXPECT_TRUE(coverage.covered().none());

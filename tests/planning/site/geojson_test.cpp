@@ -27,7 +27,7 @@ std::string error_of(const std::string& text) {
   return mission ? "no error" : mission.error().message;
 }
 
-TEST(GeoJson, WhatIsWrittenIsReadAgain) {
+TEST(GeoJson, WrittenContentIsReadAgain) {
   std::mt19937_64 random(1);
   Mission mission;
   for (RowId id = 0; id < 20; ++id) {

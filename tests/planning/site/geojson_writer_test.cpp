@@ -67,7 +67,7 @@ TEST(GeoJsonWriter, RowsComeFirstWithTheirNumbers) {
       << "WGS84, as the RFC has it";
 }
 
-TEST(GeoJsonWriter, WhatCannotBeWrittenIsNamed) {
+TEST(GeoJsonWriter, UnwritableFileIsNamed) {
   const fleetmap::testing::TemporaryFolder folder;
   const auto file = folder.path() / "no" / "site.geojson";
   const Status written = write_geojson(file, drawing(), kSite);

@@ -14,6 +14,7 @@
 
 namespace fleetmap::planning {
 
+/// A row and the direction in which it is driven.
 struct RowVisit {
   RowId row = 0;
   bool reversed = false;  ///< driven from its last waypoint to its first
@@ -29,6 +30,7 @@ struct RobotRoute {
   double energy_wh = 0.0;
 };
 
+/// Rows of a mission, divided among the robots.
 struct Division {
   std::vector<RobotRoute> routes;  ///< one a robot, in the order of the fleet
   double makespan = 0.0;           ///< s, of the longest route

@@ -7,6 +7,7 @@
 
 namespace fleetmap::planning {
 
+/// Method by which rows are divided among robots.
 enum class DivisionMethod : std::uint8_t {
   kUniform,   ///< the paper's: equal counts of neighbouring rows, in the order of rows and robots
   kBalanced,  ///< the last robot is done as early as possible
@@ -15,6 +16,7 @@ enum class DivisionMethod : std::uint8_t {
 const char* to_string(DivisionMethod method);
 Result<DivisionMethod> division_method(const std::string& name);
 
+/// Method and search effort of the division.
 struct DivisionConfig {
   DivisionMethod method = DivisionMethod::kBalanced;
   double battery_reserve = 0.2;  ///< share of `battery_wh` that is not planned with (kEnergy)

@@ -39,6 +39,7 @@ struct ExchangePlan {
   int rejected = 0;                       ///< stops that were tried out and are not worth it
 };
 
+/// Rules for stops at which two robots exchange maps.
 struct ExchangeRules {
   bool stops = false;            ///< look for stops, not only at the common meeting
   double battery_reserve = 0.2;  ///< share of a battery that no stop may touch

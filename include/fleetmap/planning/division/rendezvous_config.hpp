@@ -4,6 +4,7 @@
 
 namespace fleetmap::planning {
 
+/// Short-range link and timing of planned exchanges.
 struct RendezvousConfig {
   double c_max = 90.0;                  ///< m, reach of the short-range link (C_max of the paper)
   double bandwidth = 15e6;              ///< bit/s of the short-range link: one channel for the whole fleet

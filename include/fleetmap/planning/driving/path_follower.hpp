@@ -10,6 +10,7 @@
 
 namespace fleetmap::planning {
 
+/// Velocity of base_link that the chassis is to drive.
 struct Command {
   double forward_speed = 0.0;  ///< m/s
   double yaw_rate = 0.0;       ///< rad/s, counter-clockwise

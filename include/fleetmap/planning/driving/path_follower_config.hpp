@@ -4,6 +4,7 @@
 
 namespace fleetmap::planning {
 
+/// Limits of the chassis, and sizes of the local field.
 struct PathFollowerConfig {
   double max_speed = 1.5;         ///< m/s
   double max_reverse = 0.4;       ///< m/s, backing off

@@ -8,7 +8,7 @@ namespace fleetmap::planning {
 struct ExecutiveConfig {
   double lost_after = 60.0;  ///< without a report a robot counts as lost
   double listen = 12.0;      ///< a robot that begins far from its start (restarted) first listens for so long
-  double orphan_wait = 15.0;   ///< a row that nobody claims for so long is claimed by whoever sees it; the
+  double orphan_wait = 15.0;   ///< a row unclaimed for so long is claimed by the first robot to notice; the
                                ///< next robot in the order of names waits as long again
   double offer_gain = 45.0;    ///< rows are given to an idle robot if the fleet is done so much earlier by it
   double offer_period = 30.0;  ///< at most so often

@@ -14,6 +14,7 @@ struct PairAlignment {
   double rmse = 0.0;  ///< m, E_ab of Eq. 2
 };
 
+/// Result of mapping_complete().
 struct Completeness {
   bool complete = false;
   std::string why_not;  ///< empty when complete

@@ -41,6 +41,7 @@ struct MissionInput {
   RowSet surveyed = {};
 };
 
+/// The action that the executive orders at one time.
 struct MissionAction {
   enum class Kind : std::uint8_t {
     kFollow,  ///< drive `path`
@@ -52,21 +53,20 @@ struct MissionAction {
   std::uint64_t path_number = 0;  ///< a new number, a new path
 };
 
-/// One robot's part in a mission that nobody leads. All start from the same division; from then on each robot
-/// acts on its own knowledge and what it heard:
-/// - a row is driven if the robot that the plan gives it to says so and is not lost, or if anyone does and
-/// the
-///   fleet's nodes lie along it; what is known is passed on in every report;
+/// One robot's part in a mission without a leader. All start from the same division; from then on each robot
+/// acts on its own state and the reports that it received:
+/// - a row counts as driven if the robot that the plan gives it to reports so and is not lost, or if any
+/// robot
+///   reports so and nodes of the fleet lie along it; every report repeats this;
 /// - a row that two claim stays with the one that is under way on it, else with the lower name;
 /// - a row that is blocked is tried from both ends, by two robots where two are left, and then abandoned;
-/// - rows of a robot that is lost, stuck, low on battery or called home belong to nobody; each of the others
-/// works out who
-///   of them takes which, and whoever still sees nobody at a row after a while takes it;
+/// - rows of a robot that is lost, stuck, low on battery or called home are unclaimed; each of the others
+///   computes the same division of them, and a row that is still unclaimed after a while is taken by any;
 /// - a robot with many rows left gives some away when another one has none (the late one, the returned one);
 /// - a row that an operator gives to a robot is claimed by it, and its former owner keeps it until then; one
 ///   that he takes from a robot goes to another one, unless no other can drive it;
-/// - two whom the plan lets stop to exchange maps drive there in the plan's order of rows and wait for each
-///   other, never for one who is lost or got other rows, nor for ever.
+/// - two robots that the plan lets stop to exchange maps drive there in the plan's order of rows and wait for
+///   each other for a limited time, and not for one that is lost or got other rows.
 /// So no row stays undone while a robot remains that can reach it; at worst one is driven twice.
 /// Deterministic, no clock of its own; not thread-safe.
 class MissionExecutive {

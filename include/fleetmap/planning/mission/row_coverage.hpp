@@ -9,9 +9,9 @@ namespace fleetmap::planning {
 
 using messages::RowSet;
 
-/// Along which rows the fleet's nodes lie: evidence, which any robot can check, that a row was driven. A
-/// position is metres off and rows lie some metres apart, so it tells a driven row from a distant one and not
-/// from its neighbour.
+/// The rows along which nodes of the fleet lie: evidence, which any robot can check, that a row was driven.
+/// Positions err by metres and rows lie some metres apart, so a driven row is distinguished from a distant
+/// one but not from its neighbour.
 class RowCoverage {
  public:
   explicit RowCoverage(const Mission& mission);

@@ -4,6 +4,7 @@
 
 namespace fleetmap::planning {
 
+/// Clearances of routes on a site.
 struct RoutePlannerConfig {
   double clearance = 0.7;  ///< m kept from keep-outs: half a robot and what its position may be off
   double cell = 0.25;      ///< m, of the raster on which this is checked (coarser above 1.5 km²)

@@ -24,8 +24,8 @@ double time_of(const Travel& travel, const RobotAbility& robot);
 double energy_of(const Travel& travel, const RobotAbility& robot);
 
 /// All ways between the ends of a mission's rows. Rows are counted in the mission's order; a row's end `2 *
-/// row` is its first waypoint, `2 * row + 1` its last one. Who enters a row at one end leaves it at the
-/// other.
+/// row` is its first waypoint, `2 * row + 1` its last one. A robot that enters a row at one end leaves it at
+/// the other.
 class TravelCosts {
  public:
   /// Fails if a row can't be reached from the first one, or is blocked: says which and why.
