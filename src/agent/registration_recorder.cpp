@@ -12,6 +12,8 @@ namespace fleetmap::agent {
 RegistrationRecorder::RegistrationRecorder(const AgentId& self, const std::filesystem::path& directory,
                                            const store::RegistrationLogConfig& config)
     : self_(self), directory_(directory) {
+  if (const Status begun = output::begin_registrations(directory / output::kRegistrationsFile); !begun)
+    spdlog::error("{}", begun.error().message);
   Result<store::RegistrationLog> log =
       store::RegistrationLog::open(directory / store::kRegistrationLogFile, config);
   if (log) {

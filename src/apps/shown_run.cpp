@@ -3,6 +3,7 @@
 #include <map>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/output/line_file.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/registrations_file.hpp"
@@ -79,6 +80,8 @@ monitor::FleetView view_of(const store::Store& store, const output::Results& res
 
 void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView& view) {
   const fs::path file = folder / output::kRegistrationsFile;
+  if (output::parts_of(file).empty()) return;
+  view.logs.push_back(by);
   const output::Registrations read = output::read_registrations(file);
   if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
   for (const output::RegistrationRow& row : read.rows) {

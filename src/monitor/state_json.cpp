@@ -192,6 +192,12 @@ json holdings_json(const FleetView& view) {
   return holdings;
 }
 
+json names_of(const std::vector<AgentId>& robots) {
+  json names = json::array();
+  for (const AgentId& robot : robots) names.push_back(robot.str());
+  return names;
+}
+
 json answers_json(const FleetView& view) {
   json answers = json::array();
   for (const PairAnswer& answer : explain_pairs(view)) {
@@ -203,6 +209,7 @@ json answers_json(const FleetView& view) {
              {"attempts", answer.attempts},
              {"accepted", answer.accepted},
              {"used", answer.used},
+             {"missing_logs", names_of(answer.missing_logs)},
              {"nearest_m", optional_json(answer.nearest_m, 1e5)}};
     if (answer.nearest)
       one["nearest"] = {to_string(answer.nearest->first), to_string(answer.nearest->second)};
@@ -226,6 +233,7 @@ std::string state_json(const FleetView& view) {
                    {"nodes", nodes_json(view)},
                    {"alignments", alignments_json(view, outcomes)},
                    {"registrations", attempts_json(view, outcomes)},
+                   {"logs", names_of(view.logs)},
                    {"holdings", holdings_json(view)},
                    {"pairs", answers_json(view)},
                    {"notes", view.notes}};

@@ -54,6 +54,10 @@ bool lacks_poses(const std::filesystem::path& file) {
   return std::getline(in, header) && header == kFormerHeader;
 }
 
+Result<LineFile> open_table(const std::filesystem::path& file, bool with_pose) {
+  return LineFile::open(file, std::ios::app, {kMaxTableBytes, with_pose ? kPresentHeader : kFormerHeader});
+}
+
 /// The columns of a file, by name.
 class Columns {
  public:
@@ -92,10 +96,15 @@ class Columns {
 
 }  // namespace
 
+Status begin_registrations(const std::filesystem::path& file) {
+  const Result<LineFile> begun = open_table(file, !lacks_poses(file));
+  if (!begun) return tl::unexpected(begun.error());
+  return {};
+}
+
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
   const bool with_pose = !lacks_poses(file);
-  Result<LineFile> lines =
-      LineFile::open(file, std::ios::app, {kMaxTableBytes, with_pose ? kPresentHeader : kFormerHeader});
+  Result<LineFile> lines = open_table(file, with_pose);
   if (!lines) return tl::unexpected(lines.error());
   std::ostringstream out;
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';

@@ -55,6 +55,13 @@ TEST(RegistrationRecorder, KeepsALineOfEachAndTheCloudsOfThoseWithAResult) {
   EXPECT_EQ(kept->front().source, accepted().source.id);
 }
 
+TEST(RegistrationRecorder, BeginsItsFileBeforeTheFirstRegistration) {
+  const testing::TemporaryFolder folder;
+  const RegistrationRecorder recorder(kSelf, folder.path());
+  EXPECT_NE(testing::file_text(folder.path() / "registrations.csv").find("target,source,verdict"),
+            std::string::npos);
+}
+
 TEST(RegistrationRecorder, DropsTheOldestCloudsWhereTheFileIsBounded) {
   const testing::TemporaryFolder folder;
   RegistrationRecorder recorder(kSelf, folder.path(), {.max_bytes = 1'000'000});

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "driven_days.hpp"
+#include "fleetmap/output/registrations_file.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -64,6 +65,19 @@ TEST_F(ShownRunTest, OfARunTheHoldingsOfAllAreShownAndDamagedStoresAreNotes) {
   EXPECT_EQ(run->view.title, "run");
   EXPECT_THAT(run->view.holdings, SizeIs(2));
   EXPECT_THAT(run->view.notes, ElementsAre(HasSubstr("r3/store.db: is no store")));
+}
+
+TEST_F(ShownRunTest, RobotsWithAFileOfRegistrationsHaveALogHere) {
+  add_robot("r1", 0);
+  add_robot("r2", 1);
+  const auto none = open_run(days_.path("run"), "");
+  ASSERT_TRUE(none) << none.error().message;
+  EXPECT_THAT(none->view.logs, IsEmpty());
+  ASSERT_TRUE(output::begin_registrations(days_.path("run/r1/registrations.csv")));
+  const auto run = open_run(days_.path("run"), "");
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_THAT(run->view.logs, ElementsAre(AgentId::parse("r1").value()));
+  EXPECT_THAT(run->view.notes, IsEmpty());
 }
 
 TEST_F(ShownRunTest, WithoutTheRobotThatWasAskedForNothingIsShown) {

@@ -24,6 +24,7 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   fleet.attempt(node_id("r1", 0), node_id("r2", 1), "accepted");
   fleet.attempt(node_id("r1", 1), node_id("r2", 1), "rejected", "only 3 inliers");
   fleet.view.attempts.back().T_target_source = make_pose(Eigen::Matrix3d::Identity(), {1.0, 2.0, 3.0});
+  fleet.logs({"r2"});
   fleet.view.has_submap[1] = false;
   fleet.view.holdings.push_back({agent("r1"), agent("r2"), 2, 1, 0});
   Matrix6d C = Matrix6d::Zero();
@@ -52,6 +53,8 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   EXPECT_EQ(state["alignments"][0]["status"], "used");
   EXPECT_EQ(state["alignments"][0]["poses"][0].size(), 7u);
   EXPECT_EQ(state["pairs"][0]["joined"], true);
+  EXPECT_EQ(state["logs"], nlohmann::json({"r2"}));
+  EXPECT_EQ(state["pairs"][0]["missing_logs"], nlohmann::json({"r1"}));
   EXPECT_EQ(state["holdings"][0]["submaps"], 1);
 }
 

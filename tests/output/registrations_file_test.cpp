@@ -26,6 +26,20 @@ TEST(RegistrationsFile, HasItsHeadOnceAndALineForEachRegistration) {
                       ",accepted,0.05,0.75,0.5,1.5,,\"\"\n" + names + ",failed,,,,0.25,,\"no points\"\n");
 }
 
+TEST(RegistrationsFile, ThatIsBegunShowsThatNothingWasRegisteredYet) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "registrations.csv";
+  ASSERT_TRUE(begin_registrations(file));
+  const Registrations read = read_registrations(file);
+  EXPECT_TRUE(read.rows.empty());
+  EXPECT_EQ(read.damaged, 0u);
+  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "accepted", 0.05, 0.75, 0.5, 1.5, ""}));
+  const std::string text = testing::file_text(file);
+  ASSERT_TRUE(begin_registrations(file));
+  EXPECT_EQ(testing::file_text(file), text);
+  EXPECT_FALSE(begin_registrations(folder.path() / "none" / "r.csv"));
+}
+
 TEST(RegistrationsFile, ThatCannotBeWrittenIsAnErrorThatNamesIt) {
   const testing::TemporaryFolder folder;
   const auto written = append_registration(folder.path() / "none" / "r.csv",

@@ -16,7 +16,8 @@ enum class PairState {
   alignments_unused,  ///< alignments exist, and the graph uses none
   rejected,           ///< every registration was rejected
   no_overlap,         ///< every registration was rejected, most for lack of overlap
-  not_tried,          ///< were near each other, and nobody registered them
+  not_tried,          ///< were near each other, and neither registered the other's nodes
+  not_known,          ///< were near each other; the log that would list their registrations is not here
   never_near,         ///< never came near enough
   not_tied,           ///< at least one has no place on Earth, so nobody can tell whether they met
   nothing_known,      ///< at least one has no node
@@ -31,6 +32,7 @@ struct PairAnswer {
   PairState state = PairState::nothing_known;
   std::string text;  ///< answers "Why are a and b not joined?", or what joins them
   std::size_t attempts = 0, accepted = 0, used = 0;
+  std::vector<AgentId> missing_logs;  ///< of the two, those whose registrations are not in FleetView::logs
   std::optional<double> nearest_m;  ///< between their nodes as placed; where both are on one map
   std::optional<std::pair<NodeId, NodeId>> nearest;
 };

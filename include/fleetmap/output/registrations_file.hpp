@@ -28,6 +28,8 @@ struct RegistrationRow {
 /// Name of the file in a robot's folder.
 inline constexpr const char* kRegistrationsFile = "registrations.csv";
 
+/// Writes the head of a file that is not there, which then shows that nothing was registered yet.
+Status begin_registrations(const std::filesystem::path& file);
 /// Begins the file if it is not there. A file that was begun without poses goes on without.
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row);
 

@@ -73,6 +73,7 @@ export interface Pair {
   attempts: number;
   accepted: number;
   used: number;
+  missing_logs: string[]; // of the two: what these registered is not known here
   nearest_m: number | null;
   nearest?: [string, string];
 }
@@ -85,6 +86,7 @@ export interface State {
   nodes: FleetNode[];
   alignments: Alignment[];
   registrations: Registration[];
+  logs: string[]; // robots whose registrations are known
   holdings: Holding[];
   pairs: Pair[];
   notes: string[];

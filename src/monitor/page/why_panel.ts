@@ -135,7 +135,7 @@ export class WhyPanel {
     const facts = el(
       'p',
       {class: 'facts'},
-      `${pair.attempts} registrations, ${pair.accepted} accepted, ${pair.used} in use`,
+      `${pair.attempts} registrations${knownOf(pair)}, ${pair.accepted} accepted, ${pair.used} in use`,
       pair.nearest_m !== null && `; nearest nodes ${metres(pair.nearest_m)} apart: `,
     );
     for (const id of pair.nearest ?? []) {
@@ -238,9 +238,18 @@ export class WhyPanel {
         el(
           'li',
           {class: 'hint'},
-          state.registrations.length > 0 ? 'None of these.' : 'No registrations.csv lies beside the store.',
+          state.registrations.length > 0
+            ? 'None of these.'
+            : state.logs.length > 0
+              ? `None yet by ${state.logs.join(', ')}, whose registrations are known here.`
+              : 'No registrations.csv lies beside the store.',
         ),
       );
     return list;
   }
+}
+
+/** Where the log of one of the two is not here, there may be more. */
+function knownOf({missing_logs}: Pair): string {
+  return missing_logs.length > 0 ? ` known here (without those of ${missing_logs.join(' and ')})` : '';
 }

@@ -49,6 +49,7 @@ export const pair = (a, b, joined, more = {}) => ({
   attempts: 0,
   accepted: 0,
   used: 0,
+  missing_logs: [],
   nearest_m: null,
   ...more,
 });
@@ -61,6 +62,7 @@ export const state = (more = {}) => ({
   nodes: [node('r1', 0), node('r1', 1, [10, 0, 0]), node('r2', 0, [0, 10, 0]), node('r2', 1, [10, 10, 0])],
   alignments: [],
   registrations: [],
+  logs: ['r1', 'r2'],
   holdings: [],
   pairs: [pair('r1', 'r2', false)],
   notes: [],

@@ -65,6 +65,15 @@ select.value = 'r2';
 select.onchange();
 assert.deepEqual(shown(), ['r2#0 → r1#0', 'r3#0 → r2#0']);
 
+// Where the log of one of the two is elsewhere, the numbers are of those that are known.
+const page = state({logs: ['r2'], pairs: [pair('r1', 'r2', false, {attempts: 2, missing_logs: ['r1']})]});
+const other = document.createElement('div');
+new WhyPanel(other, actions).show(page);
+assert.match(textOf(other.querySelector('.facts')), /^2 registrations known here \(without those of r1\), 0 accepted/);
+assert.match(textOf(other.querySelector('.registrations')), /None yet by r2, whose registrations are known here/);
+new WhyPanel(other, actions).show({...page, logs: []});
+assert.match(textOf(other.querySelector('.registrations')), /No registrations\.csv lies beside the store/);
+
 // A choice here is one of all registrations, by its index; the mark follows it, also through a newer state.
 [...root.querySelectorAll('.registration')].at(-1).click();
 assert.equal(chosen.at(-1), 3);
