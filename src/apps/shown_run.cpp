@@ -46,6 +46,7 @@ Status place_held(const store::Store& store, const fs::path& file, std::span<con
   if (!recipe) return failure(file.string() + ": holds no node, so there is nothing to show");
   view.self = store.self();
   view.origin = recipe->origin;
+  view.search_radius_m = recipe->search_radius_m;
   auto items = output::items_without(store, without);
   if (!items) return tl::unexpected(items.error());
   view.nodes = std::move(items->nodes);
@@ -68,6 +69,7 @@ monitor::FleetView view_of(const store::Store& store, const output::Results& res
   monitor::FleetView view;
   view.self = store.self();
   view.origin = results.origin;
+  if (const auto recipe = output::map_recipe(store)) view.search_radius_m = recipe->search_radius_m;
   view.placement = results.placement;
   for (const auto& [id, node] : store.nodes()) {
     view.nodes.push_back(node);

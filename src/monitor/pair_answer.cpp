@@ -45,6 +45,7 @@ struct PlacedNode {
 
 /// The fleet, sorted so that each pair's answer is a look-up.
 struct Facts {
+  double search_radius_m = 0.0;
   std::set<AgentId> logs;
   std::map<Pair, Evidence> pairs;
   std::map<AgentId, std::vector<PlacedNode>> placed;
@@ -55,6 +56,7 @@ struct Facts {
 
 Facts facts_of(const FleetView& view) {
   Facts facts;
+  facts.search_radius_m = view.search_radius_m;
   facts.logs = {view.logs.begin(), view.logs.end()};
   for (const Attempt& attempt : view.attempts)
     facts.pairs[pair_of(attempt.target.agent, attempt.source.agent)].attempts.push_back(&attempt);
@@ -176,8 +178,7 @@ void explain_near(const Facts& facts, PairAnswer& answer) {
 
 /// Why no alignment of the two is used. The rules stand in the order in which a pair comes to be joined,
 /// from the end: an answer further down means that less was achieved.
-void explain_no_alignment(const Facts& facts, const Evidence& known, const PairRules& rules,
-                          PairAnswer& answer) {
+void explain_no_alignment(const Facts& facts, const Evidence& known, PairAnswer& answer) {
   const std::string both = answer.a.str() + " and " + answer.b.str();
   if (!known.alignments.empty()) {
     answer.state = PairState::alignments_unused;
@@ -194,8 +195,9 @@ void explain_no_alignment(const Facts& facts, const Evidence& known, const PairR
                   (overlap ? ", near each other but without enough overlap: " : ", and none was accepted: ") +
                   listed(reasons);
     if (!answer.missing_logs.empty())
-      answer.text += "; " + listed(answer.missing_logs, " and ") + " may have tried more: " +
-                     (answer.missing_logs.size() == 1 ? "its" : "their") + " registrations.csv is not here";
+      answer.text += "; " + listed(answer.missing_logs, " and ") +
+                     " may have tried more: " + (answer.missing_logs.size() == 1 ? "its" : "their") +
+                     " registrations.csv is not here";
   } else if (!facts.nodes.contains(answer.a) || !facts.nodes.contains(answer.b)) {
     const AgentId& missing = facts.nodes.contains(answer.a) ? answer.b : answer.a;
     answer.state = PairState::nothing_known;
@@ -206,10 +208,10 @@ void explain_no_alignment(const Facts& facts, const Evidence& known, const PairR
     answer.text = lost.str() +
                   " has no place on Earth: it had no GPS, and no alignment ties its frame to one "
                   "that had, so whether the two met cannot be told";
-  } else if (*answer.nearest_m > rules.search_radius_m) {
+  } else if (*answer.nearest_m > facts.search_radius_m) {
     answer.state = PairState::never_near;
     answer.text = both + " were never near each other: " + nearest_clause(answer) +
-                  ", and only nodes within " + metres(rules.search_radius_m) + " are registered";
+                  ", and only nodes within " + metres(facts.search_radius_m) + " are registered";
   } else {
     explain_near(facts, answer);
   }
@@ -228,7 +230,7 @@ std::string go_betweens(const Facts& facts, const AgentId& a, const AgentId& b) 
   return names.empty() ? "others" : names;
 }
 
-PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b, const PairRules& rules) {
+PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b) {
   PairAnswer answer;
   answer.a = a;
   answer.b = b;
@@ -249,7 +251,7 @@ PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b, con
     answer.text = counted(answer.used, "alignment") + " in use " + (answer.used == 1 ? "joins" : "join") +
                   " " + a.str() + " and " + b.str();
   } else {
-    explain_no_alignment(facts, evidence, rules, answer);
+    explain_no_alignment(facts, evidence, answer);
     const auto component = [&](const AgentId& robot) {
       const auto found = facts.components.find(robot);
       return found == facts.components.end() ? std::set<std::size_t>{} : found->second;
@@ -293,13 +295,13 @@ const char* to_string(PairState state) {
   return "";
 }
 
-std::vector<PairAnswer> explain_pairs(const FleetView& view, const PairRules& rules) {
+std::vector<PairAnswer> explain_pairs(const FleetView& view) {
   const Facts facts = facts_of(view);
   const std::vector<AgentId> robots = robots_of(view);
   std::vector<PairAnswer> answers;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     for (std::size_t j = i + 1; j < robots.size(); ++j)
-      answers.push_back(answer_of(facts, robots[i], robots[j], rules));
+      answers.push_back(answer_of(facts, robots[i], robots[j]));
   }
   return answers;
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "driven_days.hpp"
+#include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/registrations_file.hpp"
 
 namespace fleetmap::apps {
@@ -78,6 +79,18 @@ TEST_F(ShownRunTest, RobotsWithAFileOfRegistrationsHaveALogHere) {
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_THAT(run->view.logs, ElementsAre(AgentId::parse("r1").value()));
   EXPECT_THAT(run->view.notes, IsEmpty());
+}
+
+TEST_F(ShownRunTest, TheRadiusThatWasConfiguredDecidesWhoWasNear) {
+  days_.drive("a.db", 0, {0.0, 0.0, 0.0});
+  {
+    auto store = store::Store::open(days_.path("a.db"), AgentId::parse("r1").value()).value();
+    ASSERT_TRUE(output::keep_recipe(store, {.search_radius_m = 12.5}));
+  }
+  const auto run = open_one(days_.path("a.db"));
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->view.search_radius_m, 12.5);
+  EXPECT_EQ(view_of(*run->store, {}).search_radius_m, 12.5);
 }
 
 TEST_F(ShownRunTest, WithoutTheRobotThatWasAskedForNothingIsShown) {

@@ -15,8 +15,8 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 using testing::node_id;
+using ::testing::Not;
 using testing::ViewMaker;
 
 PairAnswer answer_of(const FleetView& view, const std::string& a, const std::string& b) {
@@ -53,8 +53,10 @@ TEST(PairAnswer, robots_far_apart_were_never_near) {
 TEST(PairAnswer, the_radius_decides_what_is_near) {
   ViewMaker fleet;
   fleet.robot("r1", 0, 1).robot("r2", 20, 1).logs({"r1", "r2"});
-  EXPECT_EQ(explain_pairs(fleet.view, {.search_radius_m = 20.0}).front().state, PairState::not_tried);
-  EXPECT_EQ(explain_pairs(fleet.view, {.search_radius_m = 19.9}).front().state, PairState::never_near);
+  fleet.view.search_radius_m = 20.0;
+  EXPECT_EQ(explain_pairs(fleet.view).front().state, PairState::not_tried);
+  fleet.view.search_radius_m = 19.9;
+  EXPECT_EQ(explain_pairs(fleet.view).front().state, PairState::never_near);
 }
 
 TEST(PairAnswer, near_robots_that_nobody_registered) {
@@ -75,9 +77,10 @@ TEST(PairAnswer, registrations_of_robots_whose_log_is_elsewhere_are_not_known) {
   const PairAnswer none = answer_of(fleet.view, "r1", "r3");
   EXPECT_EQ(none.state, PairState::not_known);
   EXPECT_THAT(none.missing_logs, ElementsAre(agent("r1"), agent("r3")));
-  EXPECT_EQ(none.text,
-            "R1 and r3 were near: their nodes came within 4.0 m (r1/2 and r3/0); whether r1 or r3 registered "
-            "them is not known here, since only r2's log of registrations is here: open the page of r1 or r3.");
+  EXPECT_EQ(
+      none.text,
+      "R1 and r3 were near: their nodes came within 4.0 m (r1/2 and r3/0); whether r1 or r3 registered "
+      "them is not known here, since only r2's log of registrations is here: open the page of r1 or r3.");
   fleet.logs({"r1"});
   const PairAnswer half = answer_of(fleet.view, "r1", "r3");
   EXPECT_EQ(half.state, PairState::not_known);

@@ -30,6 +30,8 @@ struct FleetView {
   std::vector<bool> has_submap;  ///< parallel to `nodes`
   std::vector<graph::Alignment> alignments;
   graph::Placement placement;
+  double search_radius_m =
+      30.0;  ///< m, r_max of the proximity search (Eq. 1): only nodes so near are registered
   std::vector<Attempt> attempts;   ///< of the robots in `logs`
   std::vector<AgentId> logs;       ///< robots whose registrations.csv was read
   std::vector<Holding> holdings;   ///< of all robots whose stores are known

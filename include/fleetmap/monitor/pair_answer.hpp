@@ -33,15 +33,11 @@ struct PairAnswer {
   std::string text;  ///< answers "Why are a and b not joined?", or what joins them
   std::size_t attempts = 0, accepted = 0, used = 0;
   std::vector<AgentId> missing_logs;  ///< of the two, those whose registrations are not in FleetView::logs
-  std::optional<double> nearest_m;  ///< between their nodes as placed; where both are on one map
+  std::optional<double> nearest_m;    ///< between their nodes as placed; where both are on one map
   std::optional<std::pair<NodeId, NodeId>> nearest;
 };
 
-struct PairRules {
-  double search_radius_m = 30.0;  ///< m, r_max of the proximity search (Eq. 1)
-};
-
 /// One answer for each pair of robots, by name.
-std::vector<PairAnswer> explain_pairs(const FleetView& view, const PairRules& rules = {});
+std::vector<PairAnswer> explain_pairs(const FleetView& view);
 
 }  // namespace fleetmap::monitor
