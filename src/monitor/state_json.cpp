@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
@@ -39,7 +40,22 @@ Stamp begin_of(const FleetView& view) {
   return begin;
 }
 
+/// The component of each frame that nothing ties to a place on Earth, as an index in Placement::components.
+/// Frames of different ones, or of one and the rest, are drawn at assumed places of each other.
+std::map<graph::FrameId, std::size_t> floating_frames(const FleetView& view) {
+  const auto& components = view.placement.components;
+  const auto floating = graph::not_georeferenced(view.nodes, components);
+  std::map<graph::FrameId, std::size_t> component_of;
+  for (const graph::FrameId& frame : floating) {
+    const auto found = std::ranges::find_if(
+        components, [&](const auto& frames) { return std::ranges::find(frames, frame) != frames.end(); });
+    component_of[frame] = static_cast<std::size_t>(found - components.begin());
+  }
+  return component_of;
+}
+
 json nodes_json(const FleetView& view) {
+  const auto floating = floating_frames(view);
   const Stamp begin = begin_of(view);
   const LocalFrame frame(view.origin);
   json nodes = json::array();
@@ -52,6 +68,8 @@ json nodes_json(const FleetView& view) {
              {"t", rounded(to_seconds(node.stamp - begin), 1e3)},
              {"bytes", node.submap_bytes}};
     if (placed != view.placement.T_enu_node.end()) one["T"] = pose_json(placed->second);
+    if (const auto component = floating.find(node.frame()); component != floating.end())
+      one["floating"] = component->second;
     if (view.has_submap[k] && node.submap_bytes > 0) one["submap"] = to_hex(node.submap_hash);
     if (const auto C = view.placement.covariance.find(node.id); C != view.placement.covariance.end())
       one["sigma_m"] = rounded(horizontal_sigma(C->second), 1e4);
@@ -153,7 +171,7 @@ std::map<AgentId, RobotSums> sums_of(const FleetView& view) {
 json robots_json(const FleetView& view) {
   const Stamp begin = begin_of(view);
   const auto sums = sums_of(view);
-  const auto floating = graph::not_georeferenced(view.nodes, view.placement.components);
+  const auto floating = floating_frames(view);
   json robots = json::array();
   for (const AgentId& id : robots_of(view)) {
     json robot{{"id", id.str()}, {"nodes", 0}, {"sessions", 0}, {"path_m", 0.0}};
@@ -174,8 +192,8 @@ json robots_json(const FleetView& view) {
       robot["alignments_rejected"] = credit->second.rejected;
       robot["quarantined"] = credit->second.quarantined;
     }
-    robot["georeferenced"] =
-        std::ranges::none_of(floating, [&](const auto& frame) { return frame.agent == id; });
+    robot["sessions_not_georeferenced"] =
+        std::ranges::count_if(floating, [&](const auto& frame) { return frame.first.agent == id; });
     robots.push_back(std::move(robot));
   }
   return robots;

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "monitor/views.hpp"
 #include "store/items.hpp"
@@ -66,6 +68,24 @@ TEST(StateJson, names_of_nodes_come_with_their_session_and_text_that_is_no_UTF_8
   const auto state = nlohmann::json::parse(state_json(fleet.view));
   EXPECT_EQ(state["nodes"][0]["id"], "r1#4711/3");
   EXPECT_FALSE(state["nodes"][0].contains("T")) << "it is not placed";
+}
+
+TEST(StateJson, frames_without_a_place_on_Earth_name_their_component) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0).robot("r2", 5, 2, false).robot("r3", 9, 1, false).robot("r4", 1, 1, false);
+  fleet.alignment(node_id("r2", 0), node_id("r3", 0), AlignmentStatus::used);
+  const auto state = nlohmann::json::parse(state_json(fleet.view));
+  std::map<std::string, nlohmann::json> floating;
+  for (const auto& node : state["nodes"]) floating[node["id"]] = node.value("floating", nlohmann::json());
+  EXPECT_TRUE(floating["r1/0"].is_null()) << "it had GPS";
+  EXPECT_TRUE(floating["r2/0"].is_number());
+  EXPECT_EQ(floating["r2/1"], floating["r2/0"]);
+  EXPECT_EQ(floating["r3/0"], floating["r2/0"]) << "an alignment ties them";
+  EXPECT_NE(floating["r4/0"], floating["r2/0"]);
+  EXPECT_EQ(state["robots"][0]["sessions_not_georeferenced"], 0);
+  EXPECT_EQ(state["robots"][1]["sessions_not_georeferenced"], 1);
+  fleet.alignment(node_id("r1", 0), node_id("r2", 0), AlignmentStatus::used);
+  EXPECT_FALSE(nlohmann::json::parse(state_json(fleet.view))["nodes"][3].contains("floating"));
 }
 
 TEST(StateJson, a_pair_registered_twice_has_an_alignment_each) {

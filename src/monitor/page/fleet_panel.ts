@@ -1,6 +1,6 @@
 import uPlot from 'uplot';
 import {type Actions, type Child, dot, el} from './dom';
-import {colourOf, duration, metres, type Robot, type State} from './model';
+import {colourOf, duration, metres, placeMark, type Robot, type State} from './model';
 
 /** Each robot in words, who holds what, and nodes over time. */
 export class FleetPanel {
@@ -73,7 +73,7 @@ export class FleetPanel {
             : 'alone',
       ),
     ];
-    if (robot.nodes > 0 && !robot.georeferenced) badges.push(el('span', {class: 'badge bad'}, 'no place on Earth'));
+    if (placeMark(robot)) badges.push(el('span', {class: 'badge bad'}, placeMark(robot)));
     if (robot.quarantined) badges.push(el('span', {class: 'badge bad'}, 'quarantined'));
     if (robot.id === state.self) badges.push(el('span', {class: 'badge'}, 'its map is shown'));
     return el(

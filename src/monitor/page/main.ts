@@ -6,7 +6,7 @@ import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {type Edge, edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, duration, type State} from './model';
+import {colourOf, count, duration, placeMark, type State} from './model';
 import {FleetNow} from './fleet_now';
 import {PairView} from './pair_view';
 import {el} from './dom';
@@ -204,11 +204,16 @@ let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = colour + ends.join() + state.robots.length;
+  const key = colour + ends.join() + state.robots.map((robot) => robot.id + placeMark(robot)).join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
-    el('span', {}, el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}), robot.id),
+    el(
+      'span',
+      {},
+      el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}),
+      placeMark(robot) ? `${robot.id} (${placeMark(robot)})` : robot.id,
+    ),
   );
   if (colour === 'robot') byId('legend').replaceChildren(...robots);
   else

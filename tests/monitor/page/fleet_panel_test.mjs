@@ -14,7 +14,7 @@ const holding = (holder, maker, nodes, submaps) => ({holder, maker, nodes, subma
 const fleet = state({
   robots: [
     robot('r1', {first_s: 0, last_s: 61, last_node: 'r1#1', sigma_m: 0.021, alignments_used: 3}),
-    robot('r2', {sessions: 2, quarantined: true, georeferenced: false}),
+    robot('r2', {sessions: 2, quarantined: true, sessions_not_georeferenced: 1}),
     robot('r3', {nodes: 0}),
   ],
   nodes: [node('r1', 0), node('r2', 1), node('r1', 2)],
@@ -30,7 +30,7 @@ assert.match(
   /r1joined with r2its map is shown2 nodes on 12\.3 m of path, from 0:00 to 1:01\. Last at r1#1, known to 2\.1 cm/,
 );
 assert.match(cards[0], /3 of its alignments are in use, 0 contradict\./);
-assert.match(cards[1], /joined with r1no place on Earthquarantined.*, in 2 sessions/);
+assert.match(cards[1], /joined with r11 of 2 sessions not georeferencedquarantined.*, in 2 sessions/);
 assert.match(cards[2], /joined with nobody.*made no node that is held here/);
 root.querySelector('article button').click();
 assert.deepEqual(chosen, ['r1#1']);

@@ -12,7 +12,14 @@ export const node = (robot, k, [x, y, z] = [0, 0, 0], more = {}) => ({
   ...more,
 });
 
-export const robot = (id, more = {}) => ({id, nodes: 2, sessions: 1, path_m: 12.34, georeferenced: true, ...more});
+export const robot = (id, more = {}) => ({
+  id,
+  nodes: 2,
+  sessions: 1,
+  path_m: 12.34,
+  sessions_not_georeferenced: 0,
+  ...more,
+});
 
 export const registration = (target, source, verdict, more = {}) => ({
   target,
