@@ -1,8 +1,10 @@
 #include "shown_run.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/output/line_file.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
@@ -30,6 +32,24 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
   }
   for (const auto& [id, alignment] : store.alignments()) ++of(id.computed_by).alignments;
   for (const auto& [maker, holding] : by_maker) holdings.push_back(holding);
+}
+
+/// Of the robots in `without` nothing is left, neither what they did nor what others did with it.
+void leave_out(std::span<const AgentId> without, monitor::FleetView& view) {
+  if (without.empty()) return;
+  const auto left_out = [&](const AgentId& robot) {
+    return std::ranges::find(without, robot) != without.end();
+  };
+  std::erase_if(view.attempts, [&](const monitor::Attempt& one) {
+    return left_out(one.by) || left_out(one.target.agent) || left_out(one.source.agent);
+  });
+  std::erase_if(view.holdings,
+                [&](const monitor::Holding& one) { return left_out(one.holder) || left_out(one.maker); });
+  std::erase_if(view.logs, left_out);
+  if (left_out(view.self)) view.self = {};
+  std::string names;
+  for (const AgentId& robot : without) append_to_list(names, robot.str());
+  view.notes.push_back("left out (--without): " + names);
 }
 
 Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
@@ -101,6 +121,7 @@ Result<ShownRun> open_one(const fs::path& file, std::span<const AgentId> without
     return tl::unexpected(placed.error());
   add_holdings(*run.store, run.view.holdings);
   add_attempts(file.parent_path(), run.store->self(), run.view);
+  leave_out(without, run.view);
   return run;
 }
 
@@ -136,6 +157,7 @@ Result<ShownRun> open_run(const fs::path& directory, const std::string& robot,
   run.view.title = fs::weakly_canonical(directory).filename().string();
   if (const Status placed = place_held(*run.store, shown, without, run.view); !placed)
     return tl::unexpected(placed.error());
+  leave_out(without, run.view);
   return run;
 }
 
