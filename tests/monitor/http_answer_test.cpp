@@ -28,7 +28,8 @@ class HttpAnswer : public ::testing::Test {
   }
   explicit HttpAnswer(const std::string& token = "")
       : state_(
-            config(token), [](const NodeId&) { return Result<cloud::PointCloud>(); }, kPage) {
+            config(token), [](const NodeId&, const ContentHash&) { return Result<cloud::PointCloud>(); },
+            kPage) {
     state_.cookie = "fleetmap_80";
   }
   static HttpRequest request(Method method, const std::string& target) {

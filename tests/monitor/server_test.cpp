@@ -27,7 +27,7 @@ constexpr std::uint8_t kFile[] = {1, 2, 3};
 constexpr PageFile kPage[] = {{"/index.html", "text/html", kFile}};
 
 std::unique_ptr<Server> start(const ServerConfig& config = {}) {
-  auto load = [](const NodeId&) {
+  auto load = [](const NodeId&, const ContentHash&) {
     cloud::PointCloud cloud;
     cloud.points.assign(50, Eigen::Vector3f::Ones());
     return Result<cloud::PointCloud>(cloud);
