@@ -33,6 +33,7 @@ void RegistrationRecorder::add_row(const loop_closure::Registration& registratio
   output::RegistrationRow row{
       registration.target.id, registration.source.id,   "failed", std::nullopt, std::nullopt,
       std::nullopt,           registration.cpu_seconds, ""};
+  row.done = registration.done;
   if (registration.result) {
     const registration::RegistrationResult& r = *registration.result;
     row.verdict = registration::to_string(r.verdict);

@@ -108,7 +108,7 @@ void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView&
   if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
   for (const output::RegistrationRow& row : read.rows) {
     view.attempts.push_back({by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction,
-                             row.overlap, row.reason, row.T_target_source});
+                             row.overlap, row.reason, row.T_target_source, row.done});
   }
 }
 

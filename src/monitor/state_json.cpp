@@ -113,6 +113,7 @@ json alignments_json(const FleetView& view, const Outcomes& outcomes) {
 }
 
 json attempts_json(const FleetView& view, const Outcomes& outcomes) {
+  const Stamp begin = begin_of(view);
   const auto matched = alignments_of_attempts(view);
   json attempts = json::array();
   for (std::size_t k = 0; k < view.attempts.size(); ++k) {
@@ -133,6 +134,7 @@ json attempts_json(const FleetView& view, const Outcomes& outcomes) {
                         {"overlap", optional_json(attempt.overlap, 1e5)},
                         {"reason", attempt.reason},
                         {"sentence", sentence(attempt, status)}});
+    if (attempt.done) attempts.back()["t"] = rounded(to_seconds(*attempt.done - begin), 1e3);
     if (attempt.T_target_source) attempts.back()["pose"] = pose_json(*attempt.T_target_source);
   }
   return attempts;

@@ -26,6 +26,7 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   fleet.attempt(node_id("r1", 0), node_id("r2", 1), "accepted");
   fleet.attempt(node_id("r1", 1), node_id("r2", 1), "rejected", "only 3 inliers");
   fleet.view.attempts.back().T_target_source = make_pose(Eigen::Matrix3d::Identity(), {1.0, 2.0, 3.0});
+  fleet.view.attempts.back().done = fleet.view.nodes[0].stamp + from_seconds(12.5);
   fleet.logs({"r2"});
   fleet.view.has_submap[1] = false;
   fleet.view.holdings.push_back({agent("r1"), agent("r2"), 2, 1, 0});
@@ -52,6 +53,8 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
               HasSubstr("rejected, because only 3 inliers"));
   EXPECT_EQ(state["registrations"][1]["pose"], nlohmann::json({1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0}));
   EXPECT_FALSE(state["registrations"][0].contains("pose"));
+  EXPECT_EQ(state["registrations"][1]["t"], 12.5) << "after the first node";
+  EXPECT_FALSE(state["registrations"][0].contains("t"));
   EXPECT_EQ(state["alignments"][0]["status"], "used");
   EXPECT_EQ(state["alignments"][0]["poses"][0].size(), 7u);
   EXPECT_EQ(state["pairs"][0]["joined"], true);

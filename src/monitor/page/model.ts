@@ -54,6 +54,7 @@ export interface Registration {
   overlap: number | null;
   reason: string;
   sentence: string;
+  t?: number; // when it was done, s after the first node; older programs did not log it
   pose?: PoseValues; // T_target_source of its best mode, also where it was rejected
 }
 
