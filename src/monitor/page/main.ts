@@ -55,6 +55,7 @@ follow({
     byId('tab-radio').hidden = false;
     if (!state) byId('summary').textContent = `${live.robots.length} robots · no nodes yet`;
     now.show(live, state);
+    fleet.showNow(live);
     radio.show(live);
   },
   onConnection(connected) {

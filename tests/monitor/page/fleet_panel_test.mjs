@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {openPage, textOf} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
-import {node, pair, robot, state} from './states.mjs';
+import {live, node, pair, robot, robotNow, state} from './states.mjs';
 
 await openPage(process.argv[2], '<div id="fleet"></div>');
 const {FleetPanel} = await pageModule(process.argv[2], 'fleet_panel');
@@ -49,6 +49,28 @@ assert.deepEqual(cells, [
   ['4 / 3', '75.0%'],
   ['–', '0.0%'],
 ]);
+
+// Robots whose stores are elsewhere have a row of what they report, which follows their statuses.
+const totals = () =>
+  [...root.querySelectorAll('.holdings tbody:last-child tr')].map((row) => [
+    textOf(row),
+    row.querySelector('.fill i').style.width,
+    row.querySelector('td').getAttribute('title'),
+  ]);
+assert.deepEqual(totals(), []);
+const held = (id, nodes, submaps) => robotNow(id, {nodes, submaps});
+panel.showNow(live([held('r1', 4, 4), held('r2', 4, 3), held('r3', 8, 2), held('r4', 0, 0)]));
+assert.deepEqual(totals(), [
+  ['r38 / 2 of all robots, as it reports', '25.0%', 'r3 lacks 0 nodes and 6 submaps of 8 in all'],
+]);
+const table = root.querySelector('.holdings');
+panel.showNow(live([held('r1', 10, 4), held('r3', 8, 5)]));
+assert.deepEqual(totals(), [
+  ['r38 / 5 of all robots, as it reports', '50.0%', 'r3 lacks 2 nodes and 5 submaps of 10 in all'],
+]);
+assert.equal(root.querySelector('.holdings'), table, 'the table itself stays');
+panel.show(fleet);
+assert.equal(totals().length, 1, 'a newer state keeps them');
 
 // Nodes over time are counted per robot at the times of all.
 const plot = FakePlot.shown.at(-1);
