@@ -120,7 +120,7 @@ TEST_F(HttpAnswerWithToken, the_token_of_the_address_becomes_a_cookie) {
   const HttpResponse first = answer(state_, request(Method::get, std::string("/?token=") + kToken));
   EXPECT_EQ(first.status, 303u);
   EXPECT_EQ(first.header("Location"), "/");
-  EXPECT_EQ(first.header("Set-Cookie"), "fleetmap_80=0123456789abcdef; HttpOnly; SameSite=Strict; Path=/");
+  EXPECT_EQ(first.header("Set-Cookie"), "fleetmap_80=0123456789abcdef; HttpOnly; SameSite=Lax; Path=/");
   EXPECT_EQ(status(request(Method::get, "/?token=0123456789abcdee")), 403u);
   EXPECT_EQ(status(request(Method::get, "/")), 403u);
   EXPECT_EQ(status(upgrade("/live")), 403u);

@@ -4,6 +4,7 @@
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {rmSync, writeFileSync} from 'node:fs';
+import {createServer} from 'node:http';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {everythingIsNamed, fleetmap, folder, openBrowser, shot} from './browser.mjs';
@@ -205,6 +206,22 @@ async function testVirtual(browser) {
   }
 }
 
+/** The address with its token as somebody sends it: a link of another site (localhost is another one than 127.0.0.1). */
+async function opensFromALink(browser, url) {
+  const mail = createServer((_, answer) => {
+    answer.setHeader('Content-Type', 'text/html');
+    answer.end(`<a href="${url}">the robot</a>`);
+  });
+  const port = await new Promise((listening) => mail.listen(0, '127.0.0.1', () => listening(mail.address().port)));
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(`http://localhost:${port}/`);
+  await page.locator('a').click();
+  await page.locator('#tab-radio').waitFor({timeout: 60_000});
+  await context.close();
+  mail.close();
+}
+
 async function testLive(browser) {
   const {lock, domain} = await testDomain();
   const tokenFile = join(folder, 'token');
@@ -221,6 +238,7 @@ async function testLive(browser) {
       await textIs(page, '[data-robot=r2]', /no scan comes from its LiDAR.*its pose is not known/);
       await holdAndResume(page);
     });
+    await opensFromALink(browser, url);
     await watchLive(browser, readOnly, 1366, 768, async (page) => {
       await page.locator('#tab-fleet').click();
       await textIs(page, '[data-robot=r1]', /in contact/);
