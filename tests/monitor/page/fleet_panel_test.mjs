@@ -71,6 +71,11 @@ assert.deepEqual(totals(), [
 assert.equal(root.querySelector('.holdings'), table, 'the table itself stays');
 panel.show(fleet);
 assert.equal(totals().length, 1, 'a newer state keeps them');
+const early = document.createElement('div');
+const opened = new FleetPanel(early, {selectNode() {}}, document.createElement('section'));
+opened.showNow(live([held('r3', 8, 2)]));
+opened.show(fleet);
+assert.match(textOf(early.querySelector('.holdings')), /8 \/ 2 of all robots/, 'the status came before the state');
 
 // Nodes over time are counted per robot at the times of all.
 const plot = FakePlot.shown.at(-1);
