@@ -2,7 +2,7 @@
 # Installs what is missing, builds, and lets three robots map a solar farm of 200 m x 200 m in the digital twin: the twin
 # and each robot's agent are processes of their own that talk over DDS, in real time, for about four minutes. The robots
 # plan on a drawing of the site, not on the twin's world. Ends with the plan, the merged map, the report and pictures of the
-# map in one folder; exit code 1 if rows were not driven, or the robots' maps are not of the same nodes and submaps.
+# map in one folder, and with the command that shows them in a browser; exit code 1 if rows were not driven, or the robots' maps are not of the same nodes and submaps.
 #   deploy/demo.sh [OUT]     OUT: folder of the results, default out/demo
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/demo}")
@@ -86,6 +86,7 @@ done
 echo "plan:              $out/plan.geojson $out/plan.png"
 echo "map of each robot: $out/{r1,r2,r3}/map.ply (ENU, metres; open with CloudCompare, MeshLab or pcl_viewer)"
 echo "pictures:          $out/map_top.png $out/map_perspective.png (coloured by robot)"
-echo "look at it:        $fleetmap monitor --run $out"
 echo "report:            $out/evaluation.html, and $out/r1/report.json of each robot"
-[ "$good" -eq 1 ] || { echo "not all rows were driven, or the maps differ (a machine too slow for four processes in real time? see $out/*.log)" >&2; exit 1; }
+[ "$good" -eq 1 ] || echo "not all rows were driven, or the maps differ (a machine too slow for four processes in real time? see $out/*.log)" >&2
+printf 'look at it:        %q monitor --run %q\n' "$PWD/$fleetmap" "$out"
+[ "$good" -eq 1 ]

@@ -12,6 +12,8 @@ namespace fleetmap::agent {
 RegistrationRecorder::RegistrationRecorder(const AgentId& self, const std::filesystem::path& directory,
                                            const store::RegistrationLogConfig& config)
     : self_(self), directory_(directory) {
+  if (const Status begun = output::begin_registrations(directory / output::kRegistrationsFile); !begun)
+    spdlog::error("{}", begun.error().message);
   Result<store::RegistrationLog> log =
       store::RegistrationLog::open(directory / store::kRegistrationLogFile, config);
   if (log) {
@@ -31,6 +33,7 @@ void RegistrationRecorder::add_row(const loop_closure::Registration& registratio
   output::RegistrationRow row{
       registration.target.id, registration.source.id,   "failed", std::nullopt, std::nullopt,
       std::nullopt,           registration.cpu_seconds, ""};
+  row.done = registration.done;
   if (registration.result) {
     const registration::RegistrationResult& r = *registration.result;
     row.verdict = registration::to_string(r.verdict);

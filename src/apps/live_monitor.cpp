@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <sstream>
 
 #include "fleetmap/cloud/codec.hpp"
@@ -33,6 +34,16 @@ std::string fingerprint(const std::vector<fs::path>& stores) {
   return std::move(print).str();
 }
 
+/// Nodes that are no longer there, or have another submap. A store only grows, unless it is replaced.
+std::size_t nodes_lost(const monitor::FleetView& before, const monitor::FleetView& now) {
+  std::map<NodeId, ContentHash> hashes;
+  for (const graph::Node& node : now.nodes) hashes[node.id] = node.submap_hash;
+  return static_cast<std::size_t>(std::ranges::count_if(before.nodes, [&](const graph::Node& node) {
+    const auto found = hashes.find(node.id);
+    return found == hashes.end() || found->second != node.submap_hash;
+  }));
+}
+
 Result<std::unique_ptr<LiveMonitor>> open_page(const std::optional<monitor::ServerConfig>& config,
                                                fs::path previews, LiveMonitor::Stores stores,
                                                LiveMonitor::Read read) {
@@ -55,16 +66,8 @@ LiveMonitor::LiveMonitor(Stores stores, Read read) : stores_(std::move(stores)),
 Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerConfig& config, Stores stores,
                                                         Read read, bool patient) {
   auto live = std::unique_ptr<LiveMonitor>(new LiveMonitor(std::move(stores), std::move(read)));
-  const auto load = [self = live.get()](const NodeId& id) -> Result<cloud::PointCloud> {
-    const auto encoded = [&]() -> Result<Bytes> {
-      const std::lock_guard reading(self->reading_);
-      std::unique_lock lock(self->mutex_);
-      const auto store = self->store_;
-      lock.unlock();
-      return store ? store->submap(id) : failure("nothing is shown yet");
-    }();
-    if (!encoded) return tl::unexpected(encoded.error());
-    return encoded->empty() ? cloud::PointCloud{} : cloud::decode(*encoded);
+  const auto load = [self = live.get()](const NodeId& id, const ContentHash& hash) {
+    return self->load(id, hash);
   };
   monitor::ServerConfig with_previews = config;
   with_previews.preview_threads = std::clamp(std::thread::hardware_concurrency(), 2u, 3u) - 1;
@@ -88,6 +91,21 @@ LiveMonitor::~LiveMonitor() {
   if (thread_.joinable()) thread_.join();
 }
 
+Result<cloud::PointCloud> LiveMonitor::load(const NodeId& id, const ContentHash& hash) {
+  const auto encoded = [&]() -> Result<Bytes> {
+    const std::lock_guard reading(reading_);
+    std::unique_lock lock(mutex_);
+    const auto store = store_;
+    lock.unlock();
+    return store ? store->submap(id) : failure("nothing is shown yet");
+  }();
+  if (!encoded) return tl::unexpected(encoded.error());
+  // The store may be newer than the view, whose hash names these points in caches.
+  if (content_hash(*encoded) != hash)
+    return failure("the store was replaced, and holds another submap of " + to_string(id));
+  return encoded->empty() ? cloud::PointCloud{} : cloud::decode(*encoded);
+}
+
 void LiveMonitor::follow() {
   std::chrono::milliseconds pause = kPeriod;
   while (true) {
@@ -107,16 +125,35 @@ void LiveMonitor::follow() {
 Status LiveMonitor::show_if_changed() {
   // Before the files are read: what is written meanwhile is read the next time.
   std::string print = fingerprint(stores_());
-  if (print == shown_) return {};
+  if (print == shown_ && !stale_) return {};
   auto run = read_();
-  if (!run) return tl::unexpected(run.error());
+  if (!run) {
+    show_stale(run.error().message);
+    return tl::unexpected(run.error());
+  }
   shown_ = std::move(print);
+  stale_ = false;
   {
     const std::lock_guard lock(mutex_);
     store_ = std::move(run->store);
   }
-  server_->publish(std::make_shared<const monitor::FleetView>(std::move(run->view)));
+  if (view_ && view_->self == run->view.self) {
+    if (const std::size_t lost = nodes_lost(*view_, run->view); lost > 0)
+      replaced_ = "the store was replaced while it was shown: " + std::to_string(lost) +
+                  " nodes of before are gone or have other points";
+  }
+  if (!replaced_.empty()) run->view.notes.push_back(replaced_);
+  view_ = std::make_shared<const monitor::FleetView>(std::move(run->view));
+  server_->publish(view_);
   return {};
+}
+
+void LiveMonitor::show_stale(const std::string& why) {
+  if (!view_ || stale_) return;
+  stale_ = true;
+  monitor::FleetView before = *view_;
+  before.notes.push_back("shown as it was read last, since it cannot be read now: " + why);
+  server_->publish(std::make_shared<const monitor::FleetView>(std::move(before)));
 }
 
 Result<std::unique_ptr<LiveMonitor>> page_of_robot(const std::optional<monitor::ServerConfig>& config,

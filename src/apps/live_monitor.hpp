@@ -37,7 +37,10 @@ class LiveMonitor {
  private:
   LiveMonitor(Stores stores, Read read);
   void follow();
+  Result<cloud::PointCloud> load(const NodeId& id, const ContentHash& hash);
   Status show_if_changed();
+  /// The last view again, with the reason why there is no newer one. Once, until something can be read again.
+  void show_stale(const std::string& why);
 
   const Stores stores_;
   const Read read_;
@@ -47,7 +50,10 @@ class LiveMonitor {
   std::mutex reading_;  ///< of the store that is shown, whose submaps are decoded on several threads
   std::shared_ptr<store::Store> store_;
   std::optional<std::string> shown_;  ///< fingerprint of the files that are shown; none before the first
-  std::string failed_;                ///< why the last reading failed, which is said once
+  std::shared_ptr<const monitor::FleetView> view_;  ///< that is shown
+  bool stale_ = false;                              ///< it could not be read again
+  std::string replaced_;  ///< a note, once another store has taken the place of the one that was shown
+  std::string failed_;    ///< why the last reading failed, which is said once
   std::unique_ptr<monitor::Server> server_;
   std::thread thread_;
 };

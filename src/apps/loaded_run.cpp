@@ -1,8 +1,11 @@
 #include "loaded_run.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/core/text_list.hpp"
+#include "fleetmap/output/line_file.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/registrations_file.hpp"
@@ -31,6 +34,24 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
   for (const auto& [maker, holding] : by_maker) holdings.push_back(holding);
 }
 
+/// Of the robots in `without` nothing is left, neither what they did nor what others did with it.
+void leave_out(std::span<const AgentId> without, monitor::FleetView& view) {
+  if (without.empty()) return;
+  const auto left_out = [&](const AgentId& robot) {
+    return std::ranges::find(without, robot) != without.end();
+  };
+  std::erase_if(view.attempts, [&](const monitor::Attempt& one) {
+    return left_out(one.by) || left_out(one.target.agent) || left_out(one.source.agent);
+  });
+  std::erase_if(view.holdings,
+                [&](const monitor::Holding& one) { return left_out(one.holder) || left_out(one.maker); });
+  std::erase_if(view.logs, left_out);
+  if (left_out(view.self)) view.self = {};
+  std::string names;
+  for (const AgentId& robot : without) append_to_list(names, robot.str());
+  view.notes.push_back("left out (--without): " + names);
+}
+
 Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
   if (const Status meant = check_store(file); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(file);
@@ -45,6 +66,7 @@ Status place_held(const store::Store& store, const fs::path& file, std::span<con
   if (!recipe) return failure(file.string() + ": holds no node, so there is nothing to show");
   view.self = store.self();
   view.origin = recipe->origin;
+  view.search_radius_m = recipe->search_radius_m;
   auto items = output::items_without(store, without);
   if (!items) return tl::unexpected(items.error());
   view.nodes = std::move(items->nodes);
@@ -67,6 +89,7 @@ monitor::FleetView view_of(const store::Store& store, const output::Results& res
   monitor::FleetView view;
   view.self = store.self();
   view.origin = results.origin;
+  if (const auto recipe = output::map_recipe(store)) view.search_radius_m = recipe->search_radius_m;
   view.placement = results.placement;
   for (const auto& [id, node] : store.nodes()) {
     view.nodes.push_back(node);
@@ -79,11 +102,13 @@ monitor::FleetView view_of(const store::Store& store, const output::Results& res
 
 void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView& view) {
   const fs::path file = folder / output::kRegistrationsFile;
+  if (output::parts_of(file).empty()) return;
+  view.logs.push_back(by);
   const output::Registrations read = output::read_registrations(file);
   if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
   for (const output::RegistrationRow& row : read.rows) {
     view.attempts.push_back({by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction,
-                             row.overlap, row.reason, row.T_target_source});
+                             row.overlap, row.reason, row.T_target_source, row.done});
   }
 }
 
@@ -96,6 +121,7 @@ Result<LoadedRun> open_one(const fs::path& file, std::span<const AgentId> withou
     return tl::unexpected(placed.error());
   add_holdings(*run.store, run.view.holdings);
   add_attempts(file.parent_path(), run.store->self(), run.view);
+  leave_out(without, run.view);
   return run;
 }
 
@@ -131,6 +157,7 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
   run.view.title = fs::weakly_canonical(directory).filename().string();
   if (const Status placed = place_held(*run.store, shown, without, run.view); !placed)
     return tl::unexpected(placed.error());
+  leave_out(without, run.view);
   return run;
 }
 

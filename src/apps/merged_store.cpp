@@ -171,7 +171,8 @@ Status add_all(const std::vector<fs::path>& files, const exchange::ItemAuthentic
   if (!recipe || into.nodes().empty())
     return failure("the stores hold no node that may be used, so there is nothing to merge");
   merged.recipe = *recipe;
-  return output::keep_recipe(into, {recipe->origin, recipe->placement, recipe->merge});
+  return output::keep_recipe(into,
+                             {recipe->origin, recipe->placement, recipe->merge, recipe->search_radius_m});
 }
 
 }  // namespace

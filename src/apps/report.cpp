@@ -102,12 +102,8 @@ void add_fleet_map(const FleetOutcome& outcome, ReportFacts& facts) {
     if (!entry.results || store == nullptr) continue;
     monitor::FleetView view = view_of(*store, *entry.results);
     for (const auto& other : outcome.agents) add_attempts(other.directory, other.id, view);
-    monitor::PairRules rules;
-    if (entry.agent) {
-      rules.search_radius_m = entry.agent->config().loop_closure.proximity.max_radius;
-      facts.long_range_rate = entry.agent->config().exchange.long_range.fleet_bytes_per_second;
-    }
-    facts.pairs = monitor::explain_pairs(view, rules);
+    if (entry.agent) facts.long_range_rate = entry.agent->config().exchange.long_range.fleet_bytes_per_second;
+    facts.pairs = monitor::explain_pairs(view);
     return add_map(entry.directory / "map.ply", facts);
   }
 }
@@ -173,8 +169,7 @@ Status write_report(const agent::Agent& agent, const output::Results* results, c
   if (results != nullptr) {
     monitor::FleetView view = view_of(agent.store(), *results);
     add_attempts(directory, self, view);
-    facts.pairs =
-        monitor::explain_pairs(view, {.search_radius_m = agent.config().loop_closure.proximity.max_radius});
+    facts.pairs = monitor::explain_pairs(view);
     add_map(directory / "map.ply", facts);
   }
   return report_page(facts).write(directory / "report.html");

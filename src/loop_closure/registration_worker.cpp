@@ -74,6 +74,7 @@ bool RegistrationWorker::start(std::shared_ptr<Job> job, OnRegistered done) {
   const bool taken = bus_.offload(bus::Lane::kBackground, {"registration", [this, job] { run(*job); }},
                                   [this, job, done = std::move(done)] {
                                     --jobs_;
+                                    job->registration.done = bus_.now();
                                     count(job->registration);
                                     done(job->registration);
                                   });

@@ -56,7 +56,9 @@ void Content::show(const FleetView& view) {
   for (std::size_t k = 0; k < view.nodes.size(); ++k) {
     if (!view.has_submap[k]) continue;
     const std::string hash = to_hex(view.nodes[k].submap_hash);
-    if (!submaps_.emplace(hash, view.nodes[k].id).second || made_.contains(hash)) continue;
+    if (!submaps_.emplace(hash, Source{view.nodes[k].id, view.nodes[k].submap_hash}).second ||
+        made_.contains(hash))
+      continue;
     if (has_preview(hash)) {
       made_.insert(hash);
     } else {
@@ -77,8 +79,8 @@ std::pair<std::string, Content::Make> Content::begin_preview() {
   const std::string hash = waiting_.front();
   waiting_.pop_front();
   being_made_.insert(hash);
-  return {hash, [load = load_, node = submaps_.at(hash)]() -> Cloud {
-            const auto loaded = load(node);
+  return {hash, [load = load_, source = submaps_.at(hash)]() -> Cloud {
+            const auto loaded = load(source.node, source.hash);
             return loaded ? std::make_shared<const QuantisedCloud>(quantised_prefix(*loaded, kCoarsePoints))
                           : nullptr;
           }};
@@ -101,7 +103,7 @@ void Content::keep(const Previews& previews) {
 
 Previews Content::previews() {
   Previews kept;
-  for (const auto& [hash, node] : submaps_) {
+  for (const auto& [hash, source] : submaps_) {
     if (auto preview = coarse_.find(hash)) kept[hash] = std::move(preview);
   }
   new_previews_ = 0;
@@ -132,12 +134,12 @@ Reply Content::page_file(std::string_view path) const {
 }
 
 Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const graph::Node& node) {
-  return cloud(node.id, to_hex(node.submap_hash));
+  return cloud({node.id, node.submap_hash}, to_hex(node.submap_hash));
 }
 
-Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const NodeId& node, const std::string& hash) {
+Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const Source& source, const std::string& hash) {
   if (auto kept = cache_.find(hash)) return kept;
-  const auto loaded = load_(node);
+  const auto loaded = load_(source.node, source.hash);
   if (!loaded) return tl::unexpected(loaded.error());
   return std::make_shared<const QuantisedCloud>(quantised(*loaded));
 }
@@ -145,21 +147,21 @@ Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const NodeId& node,
 Reply Content::submap(std::string_view target) {
   const auto request = parse_submap_request(target);
   if (!request) return plain_reply(400, "expected /submap/HASH?from=N&count=N");
-  const auto node = submaps_.find(request->hash);
-  if (node == submaps_.end()) return plain_reply(404, "no such submap");
-  const auto loaded = cloud(node->second, request->hash);
+  const auto source = submaps_.find(request->hash);
+  if (source == submaps_.end()) return plain_reply(404, "no such submap");
+  const auto loaded = cloud(source->second, request->hash);
   if (!loaded) return plain_reply(503, "the submap cannot be read: " + loaded.error().message);
   cache_.keep(request->hash, *loaded);
   const Bytes points = encoded_points(**loaded, request->from, std::min(request->count, kMaxPointsAtOnce));
   return {.type = "application/octet-stream", .body = {points.begin(), points.end()}, .immutable = true};
 }
 
-std::shared_ptr<const QuantisedCloud> Content::coarse(const NodeId& node, const std::string& hash,
+std::shared_ptr<const QuantisedCloud> Content::coarse(const Source& source, const std::string& hash,
                                                       std::size_t& decodable) {
   if (auto kept = coarse_.find(hash)) return kept;
   if ((decodable == 0 || being_made_.contains(hash)) && !cache_.find(hash)) return nullptr;
   decodable -= decodable > 0;
-  const auto whole = cloud(node, hash);
+  const auto whole = cloud(source, hash);
   if (!whole) return std::make_shared<const QuantisedCloud>();
   auto prefix = std::make_shared<const QuantisedCloud>(prefix_of(**whole, kCoarsePoints));
   keep_new(hash, prefix);
@@ -172,9 +174,9 @@ Reply Content::submaps(std::string_view target) {
   Reply reply{.type = "application/octet-stream", .body = {}};
   std::size_t decodable = being_made_.empty() ? kDecodedAtOnce : kDecodedBesideOthers;
   for (const std::string& hash : request->hashes) {
-    const auto node = submaps_.find(hash);
-    if (node == submaps_.end()) continue;
-    const auto points = coarse(node->second, hash, decodable);
+    const auto source = submaps_.find(hash);
+    if (source == submaps_.end()) continue;
+    const auto points = coarse(source->second, hash, decodable);
     if (!points) continue;
     const Bytes part = encoded_points(*points, request->from, request->count);
     reply.body.append(hash).append(part.begin(), part.end());

@@ -16,7 +16,6 @@
 #include "fleetmap/monitor/fleet_view.hpp"
 #include "fleetmap/monitor/live_status.hpp"
 #include "fleetmap/monitor/server.hpp"
-#include "fleetmap/store/map_merge.hpp"
 #include "point_levels.hpp"
 #include "preview_file.hpp"
 
@@ -64,7 +63,7 @@ class Content {
 
   /// `load` is called on several threads at a time if previews are made.
 
-  Content(std::span<const PageFile> page, store::SubmapLoader load, std::size_t cached_bytes)
+  Content(std::span<const PageFile> page, LoadSubmap load, std::size_t cached_bytes)
       : page_(page), load_(std::move(load)), cache_(cached_bytes), coarse_(cached_bytes) {}
 
   void show(const FleetView& view);
@@ -92,23 +91,28 @@ class Content {
   Result<std::shared_ptr<const QuantisedCloud>> cloud(const graph::Node& node);
 
  private:
-  Result<std::shared_ptr<const QuantisedCloud>> cloud(const NodeId& node, const std::string& hash);
+  /// Where a submap is, and the hash by which it is named.
+  struct Source {
+    NodeId node;
+    ContentHash hash{};
+  };
+  Result<std::shared_ptr<const QuantisedCloud>> cloud(const Source& source, const std::string& hash);
   Reply page_file(std::string_view path) const;
   Reply submap(std::string_view target);
   Reply submaps(std::string_view target);
   /// The first kCoarsePoints of a shown submap, empty where it cannot be read; null for later where they must
   /// be decoded first and `decodable` is 0, or are being made.
-  std::shared_ptr<const QuantisedCloud> coarse(const NodeId& node, const std::string& hash,
+  std::shared_ptr<const QuantisedCloud> coarse(const Source& source, const std::string& hash,
                                                std::size_t& decodable);
   void keep_new(const std::string& hash, const Cloud& preview);
 
   std::span<const PageFile> page_;
-  store::SubmapLoader load_;
+  LoadSubmap load_;
   PointCache cache_;
   PointCache coarse_;  ///< first points of the same and of others, so that the whole map is at hand
   std::shared_ptr<const std::string> state_ = std::make_shared<const std::string>("{}");
   std::shared_ptr<const std::string> live_ = std::make_shared<const std::string>();
-  std::map<std::string, NodeId> submaps_;  ///< by content hash
+  std::map<std::string, Source> submaps_;  ///< by content hash
   std::deque<std::string> waiting_;        ///< submaps whose previews are to be made
   std::set<std::string> made_;             ///< of those shown, also if the cache lacks them by now
   std::set<std::string> being_made_;       ///< by the work of begin_preview()

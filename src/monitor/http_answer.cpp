@@ -100,9 +100,11 @@ HttpResponse answer(ServerState& state, const HttpRequest& request) {
   const RequestHead head{request.host, request.origin, request.cookie, request.authorization};
   if (request.upgrade) return answer_upgrade(state, request, head);
   if (exchanges_token(state, head, request.target)) {
+    // Not Strict: the page that a link of another site opens would come without the cookie, and be refused. A
+    // browser adds a Lax cookie to no other request of another site.
     const std::string cookie = state.cookie + '=' + state.config.token;
     return {.status = 303,
-            .headers = {{"Location", "/"}, {"Set-Cookie", cookie + "; HttpOnly; SameSite=Strict; Path=/"}}};
+            .headers = {{"Location", "/"}, {"Set-Cookie", cookie + "; HttpOnly; SameSite=Lax; Path=/"}}};
   }
   if (const auto why = refusal(head, state.config.token, state.cookie)) return refused(state, 403, *why);
   if (request.method == Method::other) return refused(state, 405, "everything here is read only");

@@ -45,6 +45,8 @@ struct PlacedNode {
 
 /// The fleet, sorted so that each pair's answer is a look-up.
 struct Facts {
+  double search_radius_m = 0.0;
+  std::set<AgentId> logs;
   std::map<Pair, Evidence> pairs;
   std::map<AgentId, std::vector<PlacedNode>> placed;
   std::map<AgentId, std::size_t> nodes;
@@ -54,6 +56,8 @@ struct Facts {
 
 Facts facts_of(const FleetView& view) {
   Facts facts;
+  facts.search_radius_m = view.search_radius_m;
+  facts.logs = {view.logs.begin(), view.logs.end()};
   for (const Attempt& attempt : view.attempts)
     facts.pairs[pair_of(attempt.target.agent, attempt.source.agent)].attempts.push_back(&attempt);
   const Outcomes outcomes = outcomes_of(view);
@@ -148,10 +152,33 @@ std::string nearest_clause(const PairAnswer& answer) {
          " and " + to_string(answer.nearest->second) + ")";
 }
 
+std::string listed(const std::vector<AgentId>& robots, const char* last_separator) {
+  std::string names;
+  for (const AgentId& robot : robots) append_to_list(names, robot.str(), last_separator);
+  return names;
+}
+
+/// A pair is registered by one of its two robots alone, so the other logs add nothing.
+void explain_near(const Facts& facts, PairAnswer& answer) {
+  const std::string both = answer.a.str() + " and " + answer.b.str();
+  if (answer.missing_logs.empty()) {
+    answer.state = PairState::not_tried;
+    answer.text = both + " were near, but neither registered the other's nodes: " + nearest_clause(answer) +
+                  "; the radio may have failed there, or other pairs were worth more";
+    return;
+  }
+  answer.state = PairState::not_known;
+  answer.text = both + " were near: " + nearest_clause(answer) + "; whether " +
+                listed(answer.missing_logs, " or ") + " registered them is not known here, since ";
+  const std::vector<AgentId> logs(facts.logs.begin(), facts.logs.end());
+  answer.text += logs.empty() ? "no log of registrations is here"
+                              : "only " + listed(logs, " and ") + "'s log of registrations is here";
+  answer.text += ": open the page of " + listed(answer.missing_logs, " or ");
+}
+
 /// Why no alignment of the two is used. The rules stand in the order in which a pair comes to be joined,
 /// from the end: an answer further down means that less was achieved.
-void explain_no_alignment(const Facts& facts, const Evidence& known, const PairRules& rules,
-                          PairAnswer& answer) {
+void explain_no_alignment(const Facts& facts, const Evidence& known, PairAnswer& answer) {
   const std::string both = answer.a.str() + " and " + answer.b.str();
   if (!known.alignments.empty()) {
     answer.state = PairState::alignments_unused;
@@ -167,6 +194,10 @@ void explain_no_alignment(const Facts& facts, const Evidence& known, const PairR
     answer.text = both + " were registered " + times(known.attempts.size()) +
                   (overlap ? ", near each other but without enough overlap: " : ", and none was accepted: ") +
                   listed(reasons);
+    if (!answer.missing_logs.empty())
+      answer.text += "; " + listed(answer.missing_logs, " and ") +
+                     " may have tried more: " + (answer.missing_logs.size() == 1 ? "its" : "their") +
+                     " registrations.csv is not here";
   } else if (!facts.nodes.contains(answer.a) || !facts.nodes.contains(answer.b)) {
     const AgentId& missing = facts.nodes.contains(answer.a) ? answer.b : answer.a;
     answer.state = PairState::nothing_known;
@@ -177,14 +208,12 @@ void explain_no_alignment(const Facts& facts, const Evidence& known, const PairR
     answer.text = lost.str() +
                   " has no place on Earth: it had no GPS, and no alignment ties its frame to one "
                   "that had, so whether the two met cannot be told";
-  } else if (*answer.nearest_m > rules.search_radius_m) {
+  } else if (*answer.nearest_m > facts.search_radius_m) {
     answer.state = PairState::never_near;
     answer.text = both + " were never near each other: " + nearest_clause(answer) +
-                  ", and only nodes within " + metres(rules.search_radius_m) + " are registered";
+                  ", and only nodes within " + metres(facts.search_radius_m) + " are registered";
   } else {
-    answer.state = PairState::not_tried;
-    answer.text = both + " were near, but nobody registered them: " + nearest_clause(answer) +
-                  "; the radio may have failed there, or other pairs were worth more";
+    explain_near(facts, answer);
   }
 }
 
@@ -201,10 +230,13 @@ std::string go_betweens(const Facts& facts, const AgentId& a, const AgentId& b) 
   return names.empty() ? "others" : names;
 }
 
-PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b, const PairRules& rules) {
+PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b) {
   PairAnswer answer;
   answer.a = a;
   answer.b = b;
+  for (const AgentId& robot : {a, b}) {
+    if (!facts.logs.contains(robot)) answer.missing_logs.push_back(robot);
+  }
   const auto known = facts.pairs.find({a, b});
   const Evidence evidence = known == facts.pairs.end() ? Evidence{} : known->second;
   answer.attempts = evidence.attempts.size();
@@ -219,7 +251,7 @@ PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b, con
     answer.text = counted(answer.used, "alignment") + " in use " + (answer.used == 1 ? "joins" : "join") +
                   " " + a.str() + " and " + b.str();
   } else {
-    explain_no_alignment(facts, evidence, rules, answer);
+    explain_no_alignment(facts, evidence, answer);
     const auto component = [&](const AgentId& robot) {
       const auto found = facts.components.find(robot);
       return found == facts.components.end() ? std::set<std::size_t>{} : found->second;
@@ -251,6 +283,8 @@ const char* to_string(PairState state) {
       return "near, but no overlap";
     case PairState::not_tried:
       return "near, but not registered";
+    case PairState::not_known:
+      return "near, registrations not known here";
     case PairState::never_near:
       return "never near";
     case PairState::not_tied:
@@ -261,13 +295,13 @@ const char* to_string(PairState state) {
   return "";
 }
 
-std::vector<PairAnswer> explain_pairs(const FleetView& view, const PairRules& rules) {
+std::vector<PairAnswer> explain_pairs(const FleetView& view) {
   const Facts facts = facts_of(view);
   const std::vector<AgentId> robots = robots_of(view);
   std::vector<PairAnswer> answers;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     for (std::size_t j = i + 1; j < robots.size(); ++j)
-      answers.push_back(answer_of(facts, robots[i], robots[j], rules));
+      answers.push_back(answer_of(facts, robots[i], robots[j]));
   }
   return answers;
 }

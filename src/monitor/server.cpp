@@ -14,7 +14,7 @@ Server::~Server() {
   if (state_->thread.joinable()) state_->thread.join();
 }
 
-Result<std::unique_ptr<Server>> Server::start(const ServerConfig& config, store::SubmapLoader load,
+Result<std::unique_ptr<Server>> Server::start(const ServerConfig& config, LoadSubmap load,
                                               std::span<const PageFile> page) {
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   auto state = std::make_unique<State>(config, std::move(load), page);

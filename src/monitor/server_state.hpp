@@ -19,7 +19,7 @@ class Viewer;
 /// State shared by the sessions of one server. Only the server's thread uses it, except `counters`, `live`
 /// and WebServer::post().
 struct Server::State {
-  State(const ServerConfig& config_, store::SubmapLoader load, std::span<const PageFile> page)
+  State(const ServerConfig& config_, LoadSubmap load, std::span<const PageFile> page)
       : config(config_), content(page, std::move(load), config_.cached_bytes) {}
 
   const ServerConfig config;

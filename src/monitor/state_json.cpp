@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
@@ -39,7 +40,22 @@ Stamp begin_of(const FleetView& view) {
   return begin;
 }
 
+/// The component of each frame that nothing ties to a place on Earth, as an index in Placement::components.
+/// Frames of different ones, or of one and the rest, are drawn at assumed places of each other.
+std::map<graph::FrameId, std::size_t> floating_frames(const FleetView& view) {
+  const auto& components = view.placement.components;
+  const auto floating = graph::not_georeferenced(view.nodes, components);
+  std::map<graph::FrameId, std::size_t> component_of;
+  for (const graph::FrameId& frame : floating) {
+    const auto found = std::ranges::find_if(
+        components, [&](const auto& frames) { return std::ranges::find(frames, frame) != frames.end(); });
+    component_of[frame] = static_cast<std::size_t>(found - components.begin());
+  }
+  return component_of;
+}
+
 json nodes_json(const FleetView& view) {
+  const auto floating = floating_frames(view);
   const Stamp begin = begin_of(view);
   const LocalFrame frame(view.origin);
   json nodes = json::array();
@@ -52,6 +68,8 @@ json nodes_json(const FleetView& view) {
              {"t", rounded(to_seconds(node.stamp - begin), 1e3)},
              {"bytes", node.submap_bytes}};
     if (placed != view.placement.T_enu_node.end()) one["T"] = pose_json(placed->second);
+    if (const auto component = floating.find(node.frame()); component != floating.end())
+      one["floating"] = component->second;
     if (view.has_submap[k] && node.submap_bytes > 0) one["submap"] = to_hex(node.submap_hash);
     if (const auto C = view.placement.covariance.find(node.id); C != view.placement.covariance.end())
       one["sigma_m"] = rounded(horizontal_sigma(C->second), 1e4);
@@ -95,6 +113,7 @@ json alignments_json(const FleetView& view, const Outcomes& outcomes) {
 }
 
 json attempts_json(const FleetView& view, const Outcomes& outcomes) {
+  const Stamp begin = begin_of(view);
   const auto matched = alignments_of_attempts(view);
   json attempts = json::array();
   for (std::size_t k = 0; k < view.attempts.size(); ++k) {
@@ -115,6 +134,7 @@ json attempts_json(const FleetView& view, const Outcomes& outcomes) {
                         {"overlap", optional_json(attempt.overlap, 1e5)},
                         {"reason", attempt.reason},
                         {"sentence", sentence(attempt, status)}});
+    if (attempt.done) attempts.back()["t"] = rounded(to_seconds(*attempt.done - begin), 1e3);
     if (attempt.T_target_source) attempts.back()["pose"] = pose_json(*attempt.T_target_source);
   }
   return attempts;
@@ -153,7 +173,7 @@ std::map<AgentId, RobotSums> sums_of(const FleetView& view) {
 json robots_json(const FleetView& view) {
   const Stamp begin = begin_of(view);
   const auto sums = sums_of(view);
-  const auto floating = graph::not_georeferenced(view.nodes, view.placement.components);
+  const auto floating = floating_frames(view);
   json robots = json::array();
   for (const AgentId& id : robots_of(view)) {
     json robot{{"id", id.str()}, {"nodes", 0}, {"sessions", 0}, {"path_m", 0.0}};
@@ -175,8 +195,8 @@ json robots_json(const FleetView& view) {
       robot["alignments_rejected"] = credit->second.rejected;
       robot["quarantined"] = credit->second.quarantined;
     }
-    robot["georeferenced"] =
-        std::ranges::none_of(floating, [&](const auto& frame) { return frame.agent == id; });
+    robot["sessions_not_georeferenced"] =
+        std::ranges::count_if(floating, [&](const auto& frame) { return frame.first.agent == id; });
     robots.push_back(std::move(robot));
   }
   return robots;
@@ -193,6 +213,12 @@ json holdings_json(const FleetView& view) {
   return holdings;
 }
 
+json names_of(const std::vector<AgentId>& robots) {
+  json names = json::array();
+  for (const AgentId& robot : robots) names.push_back(robot.str());
+  return names;
+}
+
 json answers_json(const FleetView& view) {
   json answers = json::array();
   for (const PairAnswer& answer : explain_pairs(view)) {
@@ -204,6 +230,7 @@ json answers_json(const FleetView& view) {
              {"attempts", answer.attempts},
              {"accepted", answer.accepted},
              {"used", answer.used},
+             {"missing_logs", names_of(answer.missing_logs)},
              {"nearest_m", optional_json(answer.nearest_m, 1e5)}};
     if (answer.nearest)
       one["nearest"] = {to_string(answer.nearest->first), to_string(answer.nearest->second)};
@@ -227,6 +254,7 @@ std::string state_json(const FleetView& view) {
                    {"nodes", nodes_json(view)},
                    {"alignments", alignments_json(view, outcomes)},
                    {"registrations", attempts_json(view, outcomes)},
+                   {"logs", names_of(view.logs)},
                    {"holdings", holdings_json(view)},
                    {"pairs", answers_json(view)},
                    {"notes", view.notes}};

@@ -7,6 +7,7 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/output/placed_store.hpp"
+#include "search_radius.hpp"
 
 namespace fleetmap::output {
 namespace {
@@ -35,7 +36,8 @@ Status keep_recipe(store::Store& store, const RecipeConfig& config) {
                             placement.fleet.alignment_floor_rad};
   Bytes bytes(sizeof(values));
   std::memcpy(bytes.data(), values.data(), sizeof(values));
-  return store.set_meta(kRecipeKey, bytes);
+  if (const Status kept = store.set_meta(kRecipeKey, bytes); !kept) return kept;
+  return keep_search_radius(store, config.search_radius_m);
 }
 
 std::optional<MapRecipe> map_recipe(const store::Store& store) {
@@ -56,6 +58,7 @@ std::optional<MapRecipe> map_recipe(const store::Store& store) {
                             .window_m = values[10],
                             .alignment_floor_m = values[11],
                             .alignment_floor_rad = values[12]};
+  recipe.search_radius_m = search_radius(store).value_or(recipe.search_radius_m);
   if (!is_valid(recipe.origin) || !recipe.merge.validate() || !recipe.placement.validate())
     return std::nullopt;
   return recipe;

@@ -1,5 +1,7 @@
 #include "fleetmap/output/registrations_file.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,23 +15,44 @@
 namespace fleetmap::output {
 namespace {
 
-constexpr const char* kPresentHeader =
-    "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason";
-/// Former versions wrote no poses.
-constexpr const char* kFormerHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason";
+/// The last one is that of new files. Former versions wrote no times, and before that no poses.
+constexpr std::array kHeaders{
+    "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason",
+    "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason",
+    "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason,done_s"};
 constexpr std::array kVerdicts{"accepted", "ambiguous", "rejected", "failed"};
 
-/// At most `count` cells; the last one takes the rest of the line, so the reason may hold commas.
-std::vector<std::string_view> cells_of(std::string_view line, std::size_t count) {
-  std::vector<std::string_view> cells;
-  while (cells.size() + 1 < count) {
+/// At most `count` cells. Number `wide` takes what the others leave of the line, so the reason may hold
+/// commas.
+std::vector<std::string_view> cells_of(std::string_view line, std::size_t count, std::size_t wide) {
+  std::vector<std::string_view> cells, behind;
+  while (cells.size() < wide) {
     const std::size_t comma = line.find(',');
     if (comma == std::string_view::npos) break;
     cells.push_back(line.substr(0, comma));
     line.remove_prefix(comma + 1);
   }
+  while (cells.size() == wide && cells.size() + behind.size() + 1 < count) {
+    const std::size_t comma = line.rfind(',');
+    if (comma == std::string_view::npos) break;
+    behind.push_back(line.substr(comma + 1));
+    line = line.substr(0, comma);
+  }
   cells.push_back(line);
+  cells.insert(cells.end(), behind.rbegin(), behind.rend());
   return cells;
+}
+
+/// "12.345" s with all three decimals, so that a number that was cut off is none.
+std::optional<Stamp> stamp_in_cell(std::string_view text) {
+  constexpr std::size_t kDecimals = 3;
+  constexpr double kMaxSeconds = 9e9;  // nanoseconds fit into 64 bits
+  const std::size_t dot = text.find('.');
+  const auto seconds = finite_number(text);
+  if (!seconds || std::abs(*seconds) > kMaxSeconds || dot == std::string_view::npos ||
+      text.size() != dot + 1 + kDecimals)
+    return std::nullopt;
+  return stamp_from_ns(std::llround(*seconds * 1e3) * 1'000'000);
 }
 
 /// Empty unless it is seven finite numbers of which the last four are a rotation.
@@ -47,21 +70,30 @@ std::optional<Pose> pose_in_cell(std::string_view text) {
   return make_pose(q.normalized().toRotationMatrix(), {numbers[0], numbers[1], numbers[2]});
 }
 
-/// A file without a column of poses keeps its columns.
-bool lacks_poses(const std::filesystem::path& file) {
+/// A file keeps the columns with which it was begun.
+std::string_view header_of(const std::filesystem::path& file) {
   std::string header;
   std::ifstream in(file);
-  return std::getline(in, header) && header == kFormerHeader;
+  std::getline(in, header);
+  const auto* known = std::ranges::find(kHeaders, header);
+  return known == kHeaders.end() ? kHeaders.back() : *known;
+}
+
+Result<LineFile> open_table(const std::filesystem::path& file, std::string_view header) {
+  return LineFile::open(file, std::ios::app, {kMaxTableBytes, std::string(header)});
 }
 
 /// The columns of a file, by name.
 class Columns {
  public:
-  explicit Columns(std::string_view header) : names_(cells_of(header, header.size() + 1)) {}
+  explicit Columns(std::string_view header)
+      : names_(cells_of(header, header.size() + 1, header.size())),
+        wide_(std::min(static_cast<std::size_t>(std::ranges::find(names_, "reason") - names_.begin()),
+                       names_.size() - 1)) {}
 
   /// Empty if the line is damaged.
   std::optional<RegistrationRow> row(std::string_view line) const {
-    const std::vector<std::string_view> cells = cells_of(line, names_.size());
+    const std::vector<std::string_view> cells = cells_of(line, names_.size(), wide_);
     if (cells.size() < names_.size()) return std::nullopt;
     const auto cell = [&](std::string_view name) {
       const auto column = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
@@ -83,19 +115,26 @@ class Columns {
                            finite_number(cell("overlap")),
                            finite_number(cell("cpu_s")).value_or(0.0),
                            std::string(reason),
-                           pose_in_cell(cell("pose"))};
+                           pose_in_cell(cell("pose")),
+                           stamp_in_cell(cell("done_s"))};
   }
 
  private:
   std::vector<std::string_view> names_;
+  std::size_t wide_;  ///< the column of reasons, else the last one
 };
 
 }  // namespace
 
+Status begin_registrations(const std::filesystem::path& file) {
+  const Result<LineFile> begun = open_table(file, header_of(file));
+  if (!begun) return tl::unexpected(begun.error());
+  return {};
+}
+
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
-  const bool with_pose = !lacks_poses(file);
-  Result<LineFile> lines =
-      LineFile::open(file, std::ios::app, {kMaxTableBytes, with_pose ? kPresentHeader : kFormerHeader});
+  const std::string_view header = header_of(file);
+  Result<LineFile> lines = open_table(file, header);
   if (!lines) return tl::unexpected(lines.error());
   std::ostringstream out;
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';
@@ -104,8 +143,11 @@ Status append_registration(const std::filesystem::path& file, const Registration
     out << ',';
   }
   out << row.cpu_seconds << ',';
-  if (with_pose) out << (row.T_target_source ? pose_text(*row.T_target_source, 4, 7) : "") << ',';
+  if (header != kHeaders.front())
+    out << (row.T_target_source ? pose_text(*row.T_target_source, 4, 7) : "") << ',';
   out << '"' << row.reason << '"';
+  if (header == kHeaders.back())
+    out << ',' << (row.done ? fmt::format("{:.3f}", to_seconds(*row.done)) : std::string());
   return lines->add(out.str());
 }
 

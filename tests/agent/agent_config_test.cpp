@@ -82,6 +82,7 @@ TEST(AgentConfig, ResultsAreMadeByTheSameRules) {
   AgentConfig config = valid();
   config.site_origin = GeoPoint{0.8, 0.1, 50.0};
   config.map.voxel_m = 0.3;
+  config.loop_closure.proximity.max_radius = 21.0;
   config.placement.method = graph::PlacementMethod::paper;
   const output::ResultsConfig results = config.results();
   EXPECT_EQ(results.agent, config.id);
@@ -89,6 +90,7 @@ TEST(AgentConfig, ResultsAreMadeByTheSameRules) {
   ASSERT_TRUE(results.recipe.site_origin);
   EXPECT_EQ(results.recipe.site_origin->altitude, 50.0);
   EXPECT_EQ(results.recipe.map.voxel_m, 0.3);
+  EXPECT_EQ(results.recipe.search_radius_m, 21.0);
   EXPECT_EQ(results.recipe.placement.method, graph::PlacementMethod::paper);
 }
 

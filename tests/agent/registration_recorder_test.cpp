@@ -17,6 +17,7 @@ loop_closure::Registration accepted() {
   loop_closure::Registration one;
   one.target.id = {kSelf, 3};
   one.source.id = {AgentId::parse("r2").value(), 7};
+  one.done = stamp_from_ns(12'500'000'000);
   one.cpu_seconds = 1.5;
   registration::RegistrationResult result;
   result.verdict = registration::Verdict::accepted;
@@ -43,16 +44,23 @@ TEST(RegistrationRecorder, KeepsALineOfEachAndTheCloudsOfThoseWithAResult) {
   recorder.add(failed());
   const std::string text = testing::file_text(folder.path() / "registrations.csv");
   EXPECT_NE(text.find(",accepted,0.05,0.75,0.5,1.5,1.0000 2.0000 3.0000 "
-                      "0.0000000 0.0000000 0.0000000 1.0000000,\"\"\n"),
+                      "0.0000000 0.0000000 0.0000000 1.0000000,\"\",12.500\n"),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find(",failed,,,,1.5,,\"no points\"\n"), std::string::npos) << text;
+  EXPECT_NE(text.find(",failed,,,,1.5,,\"no points\",12.500\n"), std::string::npos) << text;
   const auto log = store::RegistrationLog::open_read_only(folder.path() / store::kRegistrationLogFile);
   ASSERT_TRUE(log) << log.error().message;
   const auto kept = log->read();
   ASSERT_TRUE(kept) << kept.error().message;
   ASSERT_EQ(kept->size(), 1u);
   EXPECT_EQ(kept->front().source, accepted().source.id);
+}
+
+TEST(RegistrationRecorder, BeginsItsFileBeforeTheFirstRegistration) {
+  const testing::TemporaryFolder folder;
+  const RegistrationRecorder recorder(kSelf, folder.path());
+  EXPECT_NE(testing::file_text(folder.path() / "registrations.csv").find("target,source,verdict"),
+            std::string::npos);
 }
 
 TEST(RegistrationRecorder, DropsTheOldestCloudsWhereTheFileIsBounded) {

@@ -33,12 +33,21 @@ class LiveMonitor : public ::testing::Test {
     const Bytes submap = cloud::encode(cloud, {}).value();
     ASSERT_TRUE(store.put_node_with_submap(testing::make_node(agent("r1"), 0, submap, 0.0), submap));
   }
-  static std::size_t nodes_shown(std::uint16_t port) {
+  static std::string answer(std::uint16_t port, const std::string& target) {
     testing::Browser browser(port);
-    browser.get("/state.json");
-    const std::string answer = browser.answer();
-    const auto state = nlohmann::json::parse(answer.substr(answer.find("\r\n\r\n") + 4), nullptr, false);
-    return state.is_object() && state.contains("nodes") ? state["nodes"].size() : 0;
+    browser.get(target);
+    return browser.answer();
+  }
+  static nlohmann::json state(std::uint16_t port) {
+    const std::string said = answer(port, "/state.json");
+    return nlohmann::json::parse(said.substr(said.find("\r\n\r\n") + 4), nullptr, false);
+  }
+  static std::size_t nodes_shown(std::uint16_t port) {
+    const auto shown = state(port);
+    return shown.is_object() && shown.contains("nodes") ? shown["nodes"].size() : 0;
+  }
+  static std::string notes_shown(std::uint16_t port) {
+    return state(port).value("notes", nlohmann::json()).dump();
   }
 
   std::unique_ptr<store::Store> store_of(const std::string& name) const {
@@ -76,7 +85,12 @@ TEST_F(LiveMonitor, keeps_what_it_showed_when_the_store_is_taken_away) {
   std::filesystem::remove(folder_ / "store.db");
   EXPECT_TRUE(eventually([&] { return monitor.output().find("page: ") != std::string::npos; }, 60s))
       << monitor.output();
-  EXPECT_EQ(nodes_shown(testing::announced_port(monitor.output())), 1u);
+  const std::uint16_t port = testing::announced_port(monitor.output());
+  EXPECT_EQ(nodes_shown(port), 1u);
+  const auto is_stale = [&] { return notes_shown(port).find("cannot be read now") != std::string::npos; };
+  EXPECT_TRUE(eventually(is_stale, 60s)) << notes_shown(port);
+  put_node(*store_of("store.db"), 0);
+  EXPECT_TRUE(eventually([&] { return !is_stale(); }, 60s)) << notes_shown(port);
 }
 
 TEST_F(LiveMonitor, shows_a_store_of_any_name) {
@@ -127,6 +141,60 @@ TEST_F(LiveMonitor, of_a_run_that_only_begins_shows_the_robots_that_come) {
   EXPECT_EQ(nodes_shown(port), 0u);
   put_node(*store, 0);
   EXPECT_TRUE(eventually([&] { return nodes_shown(port) == 1; }, 60s));
+}
+
+TEST_F(LiveMonitor, shows_that_another_store_has_taken_its_place) {
+  put_node(*store_of("store.db"), 0);
+  std::atomic<bool> other = false;
+  monitor::ServerConfig any_port;
+  any_port.port = 0;
+  const std::filesystem::path file = folder_ / "store.db", next = folder_ / "next.db";
+  const auto page = apps::LiveMonitor::start(
+      any_port, [&] { return std::vector{other ? next : file}; },
+      [&] { return apps::open_one(other ? next : file); }, true);
+  ASSERT_TRUE(page) << page.error().message;
+  const std::uint16_t port = (*page)->server().port();
+  const auto is_told = [&] { return notes_shown(port).find("was replaced") != std::string::npos; };
+  EXPECT_TRUE(eventually([&] { return nodes_shown(port) == 1; }, 60s));
+  EXPECT_FALSE(is_told());
+  const auto second = store_of("next.db");
+  const Bytes submap = testing::random_bytes(2000, 99);
+  ASSERT_TRUE(second->put_node_with_submap(testing::make_node(agent("r1"), 0, submap), submap));
+  other = true;
+  EXPECT_TRUE(eventually(is_told, 60s)) << notes_shown(port);
+  put_node(*second, 1);
+  EXPECT_TRUE(eventually([&] { return nodes_shown(port) == 2; }, 60s));
+  EXPECT_TRUE(is_told()) << "a viewer may have missed it";
+}
+
+// As for a moment after a store was replaced: the view is still of the one before.
+TEST_F(LiveMonitor, points_of_another_content_are_never_named_by_the_hash_of_the_view) {
+  put_node_with_points(*store_of("store.db"));
+  monitor::ServerConfig any_port;
+  any_port.port = 0;
+  any_port.preview_file = folder_ / "previews";
+  const std::filesystem::path file = folder_ / "store.db";
+  const auto read = [&](bool before) {
+    auto run = apps::open_one(file);
+    if (run && before) run->view.nodes[0].submap_hash[0] ^= 1;
+    return run;
+  };
+  for (const bool before : {true, false}) {
+    const auto page = apps::LiveMonitor::start(
+        any_port, [file] { return std::vector{file}; }, [&] { return read(before); }, true);
+    ASSERT_TRUE(page) << page.error().message;
+    const std::uint16_t port = (*page)->server().port();
+    ASSERT_TRUE(eventually([&] { return nodes_shown(port) == 1; }, 60s));
+    const std::string hash = state(port)["nodes"][0]["submap"];
+    const std::string said = answer(port, "/submap/" + hash + "?from=0&count=10");
+    EXPECT_EQ(said.find("FMP1") == std::string::npos, before) << said.substr(0, 200);
+    EXPECT_EQ(said.find("the store was replaced") != std::string::npos, before) << said.substr(0, 200);
+    const std::string first = answer(port, "/submaps?from=0&count=10&of=" + hash);
+    constexpr std::size_t kEmpty = 32 + 36, kTenPoints = kEmpty + 10 * 8;
+    EXPECT_EQ(first.size() - first.find("\r\n\r\n") - 4, before ? kEmpty : kTenPoints)
+        << first.substr(0, 200);
+    EXPECT_TRUE(!before || !std::filesystem::exists(any_port.preview_file));
+  }
 }
 
 // The fingerprint of the files is the same before and after.

@@ -23,7 +23,10 @@ class RegistrationWorkerTest : public ::testing::Test {
     prior_.sigma_translation_m = 1.0;
   }
   RegistrationWorker::OnRegistered collect() {
-    return [this](const Registration& done) { done_.push_back(done); };
+    return [this](const Registration& done) {
+      EXPECT_EQ(done.done, track_.bus().now());
+      done_.push_back(done);
+    };
   }
   Bytes cloud_of(const graph::Node& node) {
     std::optional<Bytes> cloud;
@@ -62,6 +65,7 @@ TEST_F(RegistrationWorkerTest, RegistersTwoOwnNodesAndRecordsTheInput) {
   ASSERT_TRUE(done_[0].result) << done_[0].result.error().message;
   EXPECT_EQ(done_[0].result->verdict, Verdict::accepted) << done_[0].result->reason;
   EXPECT_LT(error_between(T_target_source_, done_[0].result->T_target_source).translation_m, 0.1);
+  EXPECT_GT(done_[0].done, stamp_from_ns(0));
   EXPECT_EQ(done_[0].target.id, target_.id);
   EXPECT_EQ(done_[0].source.id, source_.id);
   EXPECT_EQ(done_[0].input.target, target_.id);

@@ -34,3 +34,40 @@ export async function everythingIsNamed(page) {
   );
   assert.deepEqual(nameless, []);
 }
+
+/** All errors and warnings that the page causes from now on. */
+export function noteErrors(page) {
+  const said = [];
+  // Software rendering makes Chromium warn of its own slowness.
+  const isOwn = (text) => text.includes('GPU stall') || text.includes('swiftshader');
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type()) && !isOwn(message.text())) said.push(message.text());
+  });
+  page.on('pageerror', (error) => said.push(String(error)));
+  return said;
+}
+
+/** Number of colours and of covered pixels in the map's middle. */
+export async function pixelsOfMap(page) {
+  return page.evaluate(
+    () =>
+      new Promise((done) =>
+        requestAnimationFrame(() => {
+          const canvas = document.getElementById('canvas');
+          const copy = document.createElement('canvas');
+          Object.assign(copy, {width: canvas.width, height: canvas.height});
+          const context = copy.getContext('2d');
+          context.drawImage(canvas, 0, 0);
+          const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+          const colours = new Set();
+          let covered = 0;
+          for (let k = 0; k < data.length; k += 4) {
+            if (data[k + 3] < 128) continue;
+            ++covered;
+            colours.add(((data[k] >> 4) << 8) | ((data[k + 1] >> 4) << 4) | (data[k + 2] >> 4));
+          }
+          done({covered: covered / (data.length / 4), colours: colours.size});
+        }),
+      ),
+  );
+}

@@ -45,7 +45,7 @@ TEST(Content, submaps_of_the_shown_view_are_loaded_once) {
   int loads = 0;
   Content content(
       kPage,
-      [&](const NodeId&) {
+      [&](const NodeId&, const ContentHash&) {
         ++loads;
         return Result<cloud::PointCloud>(cloud_of(100));
       },
@@ -70,7 +70,9 @@ TEST(Content, submaps_of_the_shown_view_are_loaded_once) {
 
 TEST(Content, a_submap_that_cannot_be_read_is_no_end) {
   Content content(
-      kPage, [](const NodeId&) -> Result<cloud::PointCloud> { return failure("disk error"); }, 1000);
+      kPage,
+      [](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> { return failure("disk error"); },
+      1000);
   ViewMaker fleet;
   fleet.robot("r1", 0, 1);
   content.show(fleet.view);
@@ -100,7 +102,7 @@ class ManySubmaps : public ::testing::Test {
   int loads = 0;
   bool broken = false;
   Content content{kPage,
-                  [this](const NodeId&) -> Result<cloud::PointCloud> {
+                  [this](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> {
                     ++loads;
                     if (broken) return failure("disk error");
                     return cloud_of(3000);
@@ -151,7 +153,9 @@ TEST_F(ManySubmaps, previews_that_were_kept_are_not_made_again) {
   EXPECT_EQ(content.new_previews(), 0u);
 
   Content later(
-      kPage, [](const NodeId&) -> Result<cloud::PointCloud> { return failure("not asked"); }, 1 << 20);
+      kPage,
+      [](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> { return failure("not asked"); },
+      1 << 20);
   later.keep(kept);
   EXPECT_TRUE(later.previews().empty()) << "nothing is shown yet";
   ViewMaker more = fleet;

@@ -28,7 +28,8 @@ class HttpAnswer : public ::testing::Test {
   }
   explicit HttpAnswer(const std::string& token = "")
       : state_(
-            config(token), [](const NodeId&) { return Result<cloud::PointCloud>(); }, kPage) {
+            config(token), [](const NodeId&, const ContentHash&) { return Result<cloud::PointCloud>(); },
+            kPage) {
     state_.cookie = "fleetmap_80";
   }
   static HttpRequest request(Method method, const std::string& target) {
@@ -119,7 +120,7 @@ TEST_F(HttpAnswerWithToken, the_token_of_the_address_becomes_a_cookie) {
   const HttpResponse first = answer(state_, request(Method::get, std::string("/?token=") + kToken));
   EXPECT_EQ(first.status, 303u);
   EXPECT_EQ(first.header("Location"), "/");
-  EXPECT_EQ(first.header("Set-Cookie"), "fleetmap_80=0123456789abcdef; HttpOnly; SameSite=Strict; Path=/");
+  EXPECT_EQ(first.header("Set-Cookie"), "fleetmap_80=0123456789abcdef; HttpOnly; SameSite=Lax; Path=/");
   EXPECT_EQ(status(request(Method::get, "/?token=0123456789abcdee")), 403u);
   EXPECT_EQ(status(request(Method::get, "/")), 403u);
   EXPECT_EQ(status(upgrade("/live")), 403u);

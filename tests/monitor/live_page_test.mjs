@@ -4,9 +4,10 @@
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {rmSync, writeFileSync} from 'node:fs';
+import {createServer} from 'node:http';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
-import {everythingIsNamed, fleetmap, folder, openBrowser, shot} from './browser.mjs';
+import {everythingIsNamed, fleetmap, folder, noteErrors, openBrowser, pixelsOfMap, shot} from './browser.mjs';
 
 /**
  * DDS domains that no other test has, as tests/bus/dds_domains.hpp gives them away; they are free again when the lock's
@@ -30,6 +31,7 @@ async function testDomain() {
 }
 
 const kToken = '0123456789abcdef';
+const kLostAfter_s = 25;
 
 function agent(id, domain, more = []) {
   const cwd = fileURLToPath(new URL('../..', import.meta.url)); // qos/ is looked for there
@@ -81,8 +83,7 @@ async function watchLive(browser, url, width, height, check) {
     deviceScaleFactor: 1,
   });
   const page = await context.newPage();
-  const said = [];
-  page.on('pageerror', (error) => said.push(String(error)));
+  const said = noteErrors(page);
   await page.goto(url);
   await page.locator('#tab-radio').waitFor({timeout: 60_000});
   await check(page);
@@ -109,15 +110,72 @@ async function fleetAndRadio(page, name) {
   await shot(page, `${name}_radio`);
 }
 
-async function holdAndResume(page) {
+/** `whileHeld`: what must be true of the robot while it is held. */
+async function holdAndResume(page, whileHeld = async () => {}) {
   await page.locator('#tab-fleet').click();
   const button = page.getByRole('button', {name: 'Hold r2'});
   await button.click();
   await textIs(page, '[data-robot=r2]', /r2 stands still: an operator holds it/);
+  await whileHeld(page);
   await shot(page, 'live_held');
   await page.getByRole('button', {name: 'Resume all'}).click();
   // A later order for all replaces that for one.
   await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: 60_000});
+}
+
+/**
+ * Waits until r1 has made `more` nodes since `before`, nodes that r1 and r2 made by their own stores; returns how many
+ * both have then. A robot makes a node whenever it has driven some metres.
+ */
+async function untilR1Drove(page, before, more) {
+  for (const end = performance.now() + 120_000; performance.now() < end; await page.waitForTimeout(500)) {
+    const {holdings} = await page.evaluate(async () => (await fetch('/state.json')).json());
+    const own = ['r1', 'r2'].map((id) => holdings?.find((one) => one.holder === id && one.maker === id)?.nodes ?? 0);
+    if (own[0] >= before[0] + more) return own;
+  }
+  assert.fail(`r1 made fewer than ${more} nodes in 120 s`);
+}
+
+/** A robot that is held stays where it is while the other one drives on. */
+async function standsStill(page) {
+  const braked = await untilR1Drove(page, await untilR1Drove(page, [0, 0], 0), 1);
+  const later = await untilR1Drove(page, braked, 3);
+  assert.equal(later[1], braked[1], `r2 is held, and made ${later[1] - braked[1]} nodes while r1 made 3`);
+}
+
+/** Points of robots under way are on the map, and the counts above it grow. */
+async function mapGrows(page) {
+  await page.waitForFunction(() => Number(document.getElementById('canvas').dataset.drawn) > 2000, null, {
+    timeout: 100_000,
+  });
+  const pixels = await pixelsOfMap(page);
+  assert.ok(pixels.covered > 0.02, `only ${pixels.covered} of the map's pixels are drawn`);
+  assert.ok(pixels.colours > 20, `only ${pixels.colours} colours: the points are not shaded`);
+  const counted = () => Number(document.getElementById('summary').textContent.match(/(\d+) nodes/)?.[1] ?? 0);
+  const first = await page.evaluate(counted);
+  await page.waitForFunction(
+    (n) => Number(document.getElementById('summary').textContent.match(/(\d+) nodes/)?.[1] ?? 0) > n,
+    first,
+    {timeout: 60_000},
+  );
+}
+
+/** Kills r2, which turns to lost when it was not heard for so long: neither earlier nor much later. */
+async function turnsLostInTime(page, heard) {
+  const killed = performance.now();
+  heard.kill('SIGKILL');
+  const text = await page.waitForFunction(
+    () => {
+      const said = document.querySelector('[data-robot=r2]').textContent;
+      return /lost.*r2 is lost\. Known last: /s.test(said) && said;
+    },
+    null,
+    {timeout: 60_000, polling: 100},
+  );
+  const waited_s = (performance.now() - killed) / 1000;
+  const silent_s = Number((await text.jsonValue()).match(/Last heard (\d+) s ago/)[1]);
+  assert.ok(silent_s >= kLostAfter_s && silent_s <= kLostAfter_s + 5, `lost after ${silent_s} s of silence`);
+  assert.ok(waited_s <= kLostAfter_s + 15, `lost ${waited_s} s after it was killed`);
 }
 
 const rowsOf = (page, robot) =>
@@ -196,7 +254,8 @@ async function testVirtual(browser) {
       await page.locator('#tab-radio').click();
       await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may/);
       await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
-      await holdAndResume(page);
+      await mapGrows(page);
+      await holdAndResume(page, standsStill);
       await giveAndCallHome(page);
       await shot(page, 'virtual');
     });
@@ -205,11 +264,27 @@ async function testVirtual(browser) {
   }
 }
 
+/** The address with its token as somebody sends it: a link of another site, as localhost is for 127.0.0.1. */
+async function opensFromALink(browser, url) {
+  const mail = createServer((_, answer) => {
+    answer.setHeader('Content-Type', 'text/html');
+    answer.end(`<a href="${url}">the robot</a>`);
+  });
+  const port = await new Promise((listening) => mail.listen(0, '127.0.0.1', () => listening(mail.address().port)));
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(`http://localhost:${port}/`);
+  await page.locator('a').click();
+  await page.locator('#tab-radio').waitFor({timeout: 60_000});
+  await context.close();
+  mail.close();
+}
+
 async function testLive(browser) {
   const {lock, domain} = await testDomain();
   const tokenFile = join(folder, 'token');
   writeFileSync(tokenFile, kToken);
-  const others = ['--set', 'mission.lost_after=25'];
+  const others = ['--set', `mission.lost_after=${kLostAfter_s}`];
   const shown = agent('r1', domain, ['--monitor', '0', '--monitor-token-file', tokenFile, ...others]);
   const heard = agent('r2', domain, ['--monitor', '0', ...others]);
   try {
@@ -221,6 +296,7 @@ async function testLive(browser) {
       await textIs(page, '[data-robot=r2]', /no scan comes from its LiDAR.*its pose is not known/);
       await holdAndResume(page);
     });
+    await opensFromALink(browser, url);
     await watchLive(browser, readOnly, 1366, 768, async (page) => {
       await page.locator('#tab-fleet').click();
       await textIs(page, '[data-robot=r1]', /in contact/);
@@ -229,9 +305,8 @@ async function testLive(browser) {
     });
     await watchLive(browser, url, 390, 844, async (page) => {
       await fleetAndRadio(page, 'live_phone');
-      heard.kill('SIGKILL');
       await page.locator('#tab-fleet').click();
-      await textIs(page, '[data-robot=r2]', /lost.*r2 is lost\. Known last: /);
+      await turnsLostInTime(page, heard);
       await shot(page, 'live_phone_lost');
     });
   } finally {

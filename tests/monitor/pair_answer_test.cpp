@@ -12,8 +12,11 @@ namespace {
 using graph::AlignmentStatus;
 using testing::agent;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::node_id;
+using ::testing::Not;
 using testing::ViewMaker;
 
 PairAnswer answer_of(const FleetView& view, const std::string& a, const std::string& b) {
@@ -49,22 +52,56 @@ TEST(PairAnswer, robots_far_apart_were_never_near) {
 
 TEST(PairAnswer, the_radius_decides_what_is_near) {
   ViewMaker fleet;
-  fleet.robot("r1", 0, 1).robot("r2", 20, 1);
-  EXPECT_EQ(explain_pairs(fleet.view, {.search_radius_m = 20.0}).front().state, PairState::not_tried);
-  EXPECT_EQ(explain_pairs(fleet.view, {.search_radius_m = 19.9}).front().state, PairState::never_near);
+  fleet.robot("r1", 0, 1).robot("r2", 20, 1).logs({"r1", "r2"});
+  fleet.view.search_radius_m = 20.0;
+  EXPECT_EQ(explain_pairs(fleet.view).front().state, PairState::not_tried);
+  fleet.view.search_radius_m = 19.9;
+  EXPECT_EQ(explain_pairs(fleet.view).front().state, PairState::never_near);
 }
 
 TEST(PairAnswer, near_robots_that_nobody_registered) {
   ViewMaker fleet;
-  fleet.robot("r1", 0).robot("r2", 12);
+  fleet.robot("r1", 0).robot("r2", 12).logs({"r1", "r2"});
   const PairAnswer answer = answer_of(fleet.view, "r1", "r2");
   EXPECT_EQ(answer.state, PairState::not_tried);
-  EXPECT_THAT(answer.text, HasSubstr("within 4.0 m (r1/2 and r2/0)"));
+  EXPECT_THAT(answer.missing_logs, IsEmpty());
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("neither registered the other's nodes"),
+                                 HasSubstr("within 4.0 m (r1/2 and r2/0)")));
+}
+
+TEST(PairAnswer, registrations_of_robots_whose_log_is_elsewhere_are_not_known) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0).robot("r2", 100).robot("r3", 12);
+  EXPECT_THAT(answer_of(fleet.view, "r1", "r3").text, HasSubstr("since no log of registrations is here"));
+  fleet.logs({"r2"});
+  const PairAnswer none = answer_of(fleet.view, "r1", "r3");
+  EXPECT_EQ(none.state, PairState::not_known);
+  EXPECT_THAT(none.missing_logs, ElementsAre(agent("r1"), agent("r3")));
+  EXPECT_EQ(
+      none.text,
+      "R1 and r3 were near: their nodes came within 4.0 m (r1/2 and r3/0); whether r1 or r3 registered "
+      "them is not known here, since only r2's log of registrations is here: open the page of r1 or r3.");
+  fleet.logs({"r1"});
+  const PairAnswer half = answer_of(fleet.view, "r1", "r3");
+  EXPECT_EQ(half.state, PairState::not_known);
+  EXPECT_THAT(half.text, AllOf(HasSubstr("whether r3 registered them is not known here"),
+                               HasSubstr("only r1 and r2's log"), HasSubstr("open the page of r3")));
+}
+
+TEST(PairAnswer, a_log_that_is_elsewhere_may_hold_more_rejections) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0).robot("r2", 12).logs({"r1"});
+  fleet.attempt(node_id("r1", 0), node_id("r2", 0), "rejected", "x");
+  const PairAnswer answer = answer_of(fleet.view, "r1", "r2");
+  EXPECT_EQ(answer.state, PairState::rejected);
+  EXPECT_THAT(answer.text, HasSubstr("r2 may have tried more: its registrations.csv is not here"));
+  fleet.logs({"r2"});
+  EXPECT_THAT(answer_of(fleet.view, "r1", "r2").text, Not(HasSubstr("tried more")));
 }
 
 TEST(PairAnswer, rejections_are_counted_by_what_was_wrong) {
   ViewMaker fleet;
-  fleet.robot("r1", 0).robot("r2", 12);
+  fleet.robot("r1", 0).robot("r2", 12).logs({"r1", "r2"});
   fleet.attempt(node_id("r1", 0), node_id("r2", 0), "rejected",
                 "inlier RMSE is 0.31 m, at most 0.20 m is good");
   fleet.attempt(node_id("r1", 1), node_id("r2", 0), "rejected", "only 12 inliers, at least 200 are needed");

@@ -38,7 +38,7 @@ class PreviewMakerTest : public ::testing::TestWithParam<bool> {
 
   Content content() {
     return {{},
-            [this](const NodeId&) -> Result<cloud::PointCloud> {
+            [this](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> {
               ++loads_;
               const int now = ++at_once_;
               int most = most_at_once_;
@@ -117,7 +117,9 @@ TEST(PreviewMaker, without_threads_nothing_is_decoded_before_it_is_asked_for) {
   ViewMaker fleet;
   fleet.robot("r1", 0, 3);
   Content content(
-      {}, [](const NodeId&) -> Result<cloud::PointCloud> { return failure("nobody asked"); }, 1000);
+      {},
+      [](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> { return failure("nobody asked"); },
+      1000);
   content.show(fleet.view);
   FakeLoop loop;
   PreviewMaker previews(loop, content, 0, false, {});

@@ -27,7 +27,7 @@ constexpr std::uint8_t kFile[] = {1, 2, 3};
 constexpr PageFile kPage[] = {{"/index.html", "text/html", kFile}};
 
 std::unique_ptr<Server> start(const ServerConfig& config = {}) {
-  auto load = [](const NodeId&) {
+  auto load = [](const NodeId&, const ContentHash&) {
     cloud::PointCloud cloud;
     cloud.points.assign(50, Eigen::Vector3f::Ones());
     return Result<cloud::PointCloud>(cloud);
@@ -315,7 +315,7 @@ TEST(Server, a_token_is_exchanged_for_a_cookie_once) {
   const std::string cookie = "fleetmap_" + std::to_string(server->port()) + "=0123456789abcdef";
   EXPECT_THAT(asked("/?token=0123456789abcdef"),
               AllOf(StartsWith("HTTP/1.1 303"), HasSubstr("Location: /\r\n"),
-                    HasSubstr(cookie + "; HttpOnly; SameSite=Strict")));
+                    HasSubstr(cookie + "; HttpOnly; SameSite=Lax")));
   EXPECT_THAT(asked("/", "Cookie: " + cookie + "\r\n"), StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(asked("/state.json", "Authorization: Bearer 0123456789abcdef\r\n"), StartsWith("HTTP/1.1 200"));
   Browser socket(server->port());

@@ -4,8 +4,8 @@ import {spawn, spawnSync} from 'node:child_process';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
-/** Two robots on a small farm for 30 s; `settings` are more of --set. Returns the run's folder. */
-export function makeRun(fleetmap, folder, settings = []) {
+/** Robots on a small farm for 30 s; `settings` are more of --set. Returns the run's folder. */
+export function makeRun(fleetmap, folder, settings = [], robots = 2) {
   const out = join(folder, 'run');
   const source = join(fileURLToPath(new URL('../..', import.meta.url)), 'config/fleets/farm_small.yaml');
   const run = spawnSync(
@@ -15,7 +15,7 @@ export function makeRun(fleetmap, folder, settings = []) {
       '-c',
       source,
       '--agents',
-      '2',
+      String(robots),
       '--set',
       'max_time=30',
       ...settings.flatMap((one) => ['--set', one]),

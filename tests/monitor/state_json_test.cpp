@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "monitor/views.hpp"
 #include "store/items.hpp"
@@ -24,6 +26,8 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   fleet.attempt(node_id("r1", 0), node_id("r2", 1), "accepted");
   fleet.attempt(node_id("r1", 1), node_id("r2", 1), "rejected", "only 3 inliers");
   fleet.view.attempts.back().T_target_source = make_pose(Eigen::Matrix3d::Identity(), {1.0, 2.0, 3.0});
+  fleet.view.attempts.back().done = fleet.view.nodes[0].stamp + from_seconds(12.5);
+  fleet.logs({"r2"});
   fleet.view.has_submap[1] = false;
   fleet.view.holdings.push_back({agent("r1"), agent("r2"), 2, 1, 0});
   Matrix6d C = Matrix6d::Zero();
@@ -49,9 +53,13 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
               HasSubstr("rejected, because only 3 inliers"));
   EXPECT_EQ(state["registrations"][1]["pose"], nlohmann::json({1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0}));
   EXPECT_FALSE(state["registrations"][0].contains("pose"));
+  EXPECT_EQ(state["registrations"][1]["t"], 12.5) << "after the first node";
+  EXPECT_FALSE(state["registrations"][0].contains("t"));
   EXPECT_EQ(state["alignments"][0]["status"], "used");
   EXPECT_EQ(state["alignments"][0]["poses"][0].size(), 7u);
   EXPECT_EQ(state["pairs"][0]["joined"], true);
+  EXPECT_EQ(state["logs"], nlohmann::json({"r2"}));
+  EXPECT_EQ(state["pairs"][0]["missing_logs"], nlohmann::json({"r1"}));
   EXPECT_EQ(state["holdings"][0]["submaps"], 1);
 }
 
@@ -63,6 +71,24 @@ TEST(StateJson, names_of_nodes_come_with_their_session_and_text_that_is_no_UTF_8
   const auto state = nlohmann::json::parse(state_json(fleet.view));
   EXPECT_EQ(state["nodes"][0]["id"], "r1#4711/3");
   EXPECT_FALSE(state["nodes"][0].contains("T")) << "it is not placed";
+}
+
+TEST(StateJson, frames_without_a_place_on_Earth_name_their_component) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0).robot("r2", 5, 2, false).robot("r3", 9, 1, false).robot("r4", 1, 1, false);
+  fleet.alignment(node_id("r2", 0), node_id("r3", 0), AlignmentStatus::used);
+  const auto state = nlohmann::json::parse(state_json(fleet.view));
+  std::map<std::string, nlohmann::json> floating;
+  for (const auto& node : state["nodes"]) floating[node["id"]] = node.value("floating", nlohmann::json());
+  EXPECT_TRUE(floating["r1/0"].is_null()) << "it had GPS";
+  EXPECT_TRUE(floating["r2/0"].is_number());
+  EXPECT_EQ(floating["r2/1"], floating["r2/0"]);
+  EXPECT_EQ(floating["r3/0"], floating["r2/0"]) << "an alignment ties them";
+  EXPECT_NE(floating["r4/0"], floating["r2/0"]);
+  EXPECT_EQ(state["robots"][0]["sessions_not_georeferenced"], 0);
+  EXPECT_EQ(state["robots"][1]["sessions_not_georeferenced"], 1);
+  fleet.alignment(node_id("r1", 0), node_id("r2", 0), AlignmentStatus::used);
+  EXPECT_FALSE(nlohmann::json::parse(state_json(fleet.view))["nodes"][3].contains("floating"));
 }
 
 TEST(StateJson, a_pair_registered_twice_has_an_alignment_each) {

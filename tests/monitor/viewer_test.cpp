@@ -45,7 +45,8 @@ class ViewerTest : public ::testing::Test {
     socket_.take(*viewer_);
   }
 
-  ServerState state_{ServerConfig{}, [](const NodeId&) { return Result<cloud::PointCloud>(); }, {}};
+  ServerState state_{
+      ServerConfig{}, [](const NodeId&, const ContentHash&) { return Result<cloud::PointCloud>(); }, {}};
   FakeSocket socket_;
   std::optional<Viewer> viewer_;
 };

@@ -60,4 +60,9 @@ ViewMaker& ViewMaker::attempt(const NodeId& target, const NodeId& source, const 
   return *this;
 }
 
+ViewMaker& ViewMaker::logs(const std::vector<std::string>& ids) {
+  for (const std::string& id : ids) view.logs.push_back(agent(id));
+  return *this;
+}
+
 }  // namespace fleetmap::testing

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fleetmap/monitor/fleet_view.hpp"
 
@@ -15,6 +16,8 @@ class ViewMaker {
   ViewMaker& alignment(const NodeId& i, const NodeId& j, graph::AlignmentStatus status);
   ViewMaker& attempt(const NodeId& target, const NodeId& source, const std::string& verdict,
                      const std::string& reason = "");
+  /// The registrations of these robots are known, also if there are none.
+  ViewMaker& logs(const std::vector<std::string>& ids);
   monitor::FleetView view;
 
  private:

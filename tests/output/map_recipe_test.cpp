@@ -45,11 +45,13 @@ TEST_F(MapRecipeTest, EverySettingIsKept) {
                             .alignment_floor_m = 0.36,
                             .alignment_floor_rad = 0.037};
   config.map = {.voxel_m = 0.38, .centroids = !store::MergeConfig{}.centroids};
+  config.search_radius_m = 39.0;
   ASSERT_TRUE(keep_recipe(store_, config));
   const auto recipe = map_recipe(store_);
   ASSERT_TRUE(recipe);
   EXPECT_EQ(recipe->origin, kSite);
   EXPECT_EQ(recipe->merge.voxel_m, 0.38);
+  EXPECT_EQ(recipe->search_radius_m, 39.0);
   EXPECT_EQ(recipe->merge.centroids, config.map.centroids);
   EXPECT_EQ(recipe->placement.method, graph::PlacementMethod::paper);
   EXPECT_EQ(recipe->placement.paper.max_rmse, 0.31);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 
@@ -22,8 +23,22 @@ TEST(RegistrationsFile, HasItsHeadOnceAndALineForEachRegistration) {
   ASSERT_TRUE(append_registration(file, {kTarget, kSource, "failed", {}, {}, {}, 0.25, "no points"}));
   const std::string text = testing::file_text(file);
   const std::string names = to_string(kTarget) + "," + to_string(kSource);
-  EXPECT_EQ(text, "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason\n" + names +
-                      ",accepted,0.05,0.75,0.5,1.5,,\"\"\n" + names + ",failed,,,,0.25,,\"no points\"\n");
+  EXPECT_EQ(text, "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason,done_s\n" + names +
+                      ",accepted,0.05,0.75,0.5,1.5,,\"\",\n" + names + ",failed,,,,0.25,,\"no points\",\n");
+}
+
+TEST(RegistrationsFile, ThatIsBegunShowsThatNothingWasRegisteredYet) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "registrations.csv";
+  ASSERT_TRUE(begin_registrations(file));
+  const Registrations read = read_registrations(file);
+  EXPECT_TRUE(read.rows.empty());
+  EXPECT_EQ(read.damaged, 0u);
+  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "accepted", 0.05, 0.75, 0.5, 1.5, ""}));
+  const std::string text = testing::file_text(file);
+  ASSERT_TRUE(begin_registrations(file));
+  EXPECT_EQ(testing::file_text(file), text);
+  EXPECT_FALSE(begin_registrations(folder.path() / "none" / "r.csv"));
 }
 
 TEST(RegistrationsFile, ThatCannotBeWrittenIsAnErrorThatNamesIt) {
@@ -88,6 +103,44 @@ TEST(RegistrationsFile, PosesOfRejectedRegistrationsAreKept) {
     ASSERT_EQ(odd.rows.size(), 1u) << wrong;
     EXPECT_FALSE(odd.rows[0].T_target_source) << wrong;
   }
+}
+
+TEST(RegistrationsFile, TimesAreKeptToTheMillisecond) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / kRegistrationsFile;
+  for (const std::int64_t ns : {1'700'000'000'123'000'000, 0L, 12'345'000'000}) {
+    RegistrationRow row{kTarget, kSource, "rejected", 0.5, 0.5, 0.5, 1.5, "too far, by 3 m"};
+    row.done = stamp_from_ns(ns);
+    ASSERT_TRUE(append_registration(file, row));
+    const Registrations read = read_registrations(file);
+    EXPECT_EQ(read.damaged, 0u);
+    EXPECT_EQ(read.rows.back().done, row.done) << ns;
+    EXPECT_EQ(read.rows.back().reason, row.reason);
+  }
+  for (const char* wrong : {"", "12.34", "12", "12.3456", "x.123", "99999999999.000", "nan", "-.x00"}) {
+    const std::string head = "target,source,verdict,reason,done_s\nr1/3,r2/7,rejected,\"a, b\",";
+    const Registrations odd = parse_registrations(head + wrong + "\n");
+    ASSERT_EQ(odd.rows.size(), 1u) << wrong;
+    EXPECT_FALSE(odd.rows[0].done) << wrong;
+    EXPECT_EQ(odd.rows[0].reason, "a, b");
+  }
+}
+
+TEST(RegistrationsFile, AFileWithoutTimesGoesOnWithoutThem) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / kRegistrationsFile;
+  std::ofstream(file) << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason\n"
+                      << "r1/0,r3/1,accepted,0.0757,0.70,0.98,0.0165,,\"\"\n";
+  RegistrationRow row{kTarget, kSource, "rejected", 0.5, 0.5, 0.5, 1.5, "far, far away"};
+  row.T_target_source = Pose::Identity();
+  row.done = stamp_from_ns(5'000'000'000);
+  ASSERT_TRUE(append_registration(file, row));
+  const Registrations read = read_registrations(file);
+  EXPECT_EQ(read.damaged, 0u);
+  ASSERT_EQ(read.rows.size(), 2u);
+  EXPECT_EQ(read.rows[1].reason, row.reason);
+  EXPECT_TRUE(read.rows[1].T_target_source);
+  EXPECT_FALSE(read.rows[1].done);
 }
 
 TEST(RegistrationsFile, AFileWithoutPosesGoesOnWithoutThem) {

@@ -50,7 +50,9 @@ struct AgentConfig {
   std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: the robot is driven by others
 
   /// The rules by which maps are made, and the rest that results depend on.
-  output::RecipeConfig recipe() const { return {site_origin, placement, map}; }
+  output::RecipeConfig recipe() const {
+    return {site_origin, placement, map, loop_closure.proximity.max_radius};
+  }
   output::ResultsConfig results() const { return {id, directory, recipe()}; }
   /// Names the component, the field and the rule that it breaks.
   Status validate() const;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/store/registration_log.hpp"
@@ -27,6 +28,7 @@ struct Registration {
   graph::Node target;
   graph::Node source;
   Result<registration::RegistrationResult> result = failure("not run");
+  Stamp done{};  ///< by the robot's clock, when its result was there
   double cpu_seconds = 0.0;
   double spherize_seconds = 0.0;    ///< of cpu_seconds
   store::LoggedRegistration input;  ///< if there is a result

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/se3.hpp"
 #include "fleetmap/graph/placement.hpp"
 
@@ -17,6 +18,7 @@ struct Attempt {
   std::optional<double> rmse_m, inlier_fraction, overlap;
   std::string reason;                        ///< empty when accepted
   std::optional<Pose> T_target_source = {};  ///< of the best mode, if it is known
+  std::optional<Stamp> done = {};            ///< by the clock of `by`, if it is known
 };
 
 /// Describes the attempt and its outcome in one sentence. `status` is the graph's decision about its

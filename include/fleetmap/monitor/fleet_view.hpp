@@ -30,7 +30,10 @@ struct FleetView {
   std::vector<bool> has_submap;  ///< parallel to `nodes`
   std::vector<graph::Alignment> alignments;
   graph::Placement placement;
-  std::vector<Attempt> attempts;   ///< of all robots whose registrations are known
+  double search_radius_m =
+      30.0;  ///< m, r_max of the proximity search (Eq. 1): only nodes so near are registered
+  std::vector<Attempt> attempts;   ///< of the robots in `logs`
+  std::vector<AgentId> logs;       ///< robots whose registrations.csv was read
   std::vector<Holding> holdings;   ///< of all robots whose stores are known
   std::vector<std::string> notes;  ///< files that could not be read
 };

@@ -16,7 +16,8 @@ enum class PairState {
   alignments_unused,  ///< alignments exist, and the graph uses none
   rejected,           ///< every registration was rejected
   no_overlap,         ///< every registration was rejected, most for lack of overlap
-  not_tried,          ///< were near each other, and nobody registered them
+  not_tried,          ///< were near each other, and neither registered the other's nodes
+  not_known,          ///< were near each other; the log that would list their registrations is not here
   never_near,         ///< never came near enough
   not_tied,           ///< at least one has no place on Earth, so nobody can tell whether they met
   nothing_known,      ///< at least one has no node
@@ -31,15 +32,12 @@ struct PairAnswer {
   PairState state = PairState::nothing_known;
   std::string text;  ///< answers "Why are a and b not joined?", or what joins them
   std::size_t attempts = 0, accepted = 0, used = 0;
-  std::optional<double> nearest_m;  ///< between their nodes as placed; where both are on one map
+  std::vector<AgentId> missing_logs;  ///< of the two, those whose registrations are not in FleetView::logs
+  std::optional<double> nearest_m;    ///< between their nodes as placed; where both are on one map
   std::optional<std::pair<NodeId, NodeId>> nearest;
 };
 
-struct PairRules {
-  double search_radius_m = 30.0;  ///< m, r_max of the proximity search (Eq. 1)
-};
-
 /// One answer for each pair of robots, by name.
-std::vector<PairAnswer> explain_pairs(const FleetView& view, const PairRules& rules = {});
+std::vector<PairAnswer> explain_pairs(const FleetView& view);
 
 }  // namespace fleetmap::monitor

@@ -7,13 +7,13 @@
 #include <span>
 #include <string>
 
+#include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
 #include "fleetmap/monitor/live_status.hpp"
 #include "fleetmap/monitor/request_check.hpp"
 #include "fleetmap/monitor/server_config.hpp"
-#include "fleetmap/store/map_merge.hpp"
 
 namespace fleetmap::monitor {
 
@@ -27,6 +27,9 @@ struct PageFile {
 std::span<const PageFile> built_in_page();
 /// Why there is no page; empty if there is one.
 std::string why_no_page();
+
+/// Decodes a node's submap. Fails if its content has another hash, since the store may have been replaced.
+using LoadSubmap = std::function<Result<cloud::PointCloud>(const NodeId&, const ContentHash&)>;
 
 struct ServerStats {
   std::uint64_t requests = 0;
@@ -42,7 +45,7 @@ struct ServerStats {
 class Server {
  public:
   /// `load` is called on the server's thread, and on others at the same time with preview_threads.
-  static Result<std::unique_ptr<Server>> start(const ServerConfig& config, store::SubmapLoader load,
+  static Result<std::unique_ptr<Server>> start(const ServerConfig& config, LoadSubmap load,
                                                std::span<const PageFile> page = built_in_page());
   ~Server();
   Server(const Server&) = delete;

@@ -16,6 +16,8 @@ struct MapRecipe {
   GeoPoint origin;
   graph::PlacementConfig placement;
   store::MergeConfig merge;
+  double search_radius_m =
+      RecipeConfig{}.search_radius_m;  ///< m; also where an older program wrote the store
 };
 
 /// Stores how the agent's maps are made, so that what is made of the store later, whatever became of the

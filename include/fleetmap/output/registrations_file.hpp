@@ -8,6 +8,7 @@
 
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/se3.hpp"
 
 namespace fleetmap::output {
@@ -23,12 +24,15 @@ struct RegistrationRow {
   double cpu_seconds = 0.0;
   std::string reason;                        ///< of the verdict or of the failure
   std::optional<Pose> T_target_source = {};  ///< of the best mode, also where it was rejected
+  std::optional<Stamp> done = {};            ///< by the robot's clock; ms
 };
 
 /// Name of the file in a robot's folder.
 inline constexpr const char* kRegistrationsFile = "registrations.csv";
 
-/// Begins the file if it is not there. A file that was begun without poses goes on without.
+/// Writes the head of a file that is not there, which then shows that nothing was registered yet.
+Status begin_registrations(const std::filesystem::path& file);
+/// Begins the file if it is not there. A file that was begun without poses or times goes on without.
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row);
 
 /// Content of a registrations.csv.

@@ -2,7 +2,7 @@ import type {Vector3} from 'three';
 import {el} from './dom';
 import type {Edge} from './edges';
 import {geoText, toGeo} from './geodesy';
-import {duration, metres, type State} from './model';
+import {comparable, duration, kNoDistance, kNotGeoreferenced, metres, type State} from './model';
 
 const kKinds = {used: 'Alignment in use', unused: 'Alignment not used', rejected: 'Rejected registration'};
 
@@ -13,7 +13,9 @@ export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTML
   const rows: [string, string][] = [['made', `${duration(node.t)} after the first node, by ${node.robot}`]];
   if (p) {
     const enu = p.toArray().map((v) => v.toFixed(2));
-    rows.push(['ENU', `${enu.join(', ')} m`], ['WGS84', geoText(toGeo(state.origin, p.toArray()))]);
+    if (node.floating === undefined)
+      rows.push(['ENU', `${enu.join(', ')} m`], ['WGS84', geoText(toGeo(state.origin, p.toArray()))]);
+    else rows.push(['on the map', `${enu.join(', ')} m`], ['on Earth', kNotGeoreferenced]);
   }
   const sigma = node.gps_sigma_m;
   rows.push(['GPS', sigma === undefined ? 'none' : `known to ${sigma.toFixed(2)} m (1 σ) before alignment`]);
@@ -29,7 +31,9 @@ export function edgeCard(state: State, edge: Edge, apart: number | undefined): H
   const registration = edge.registration === undefined ? undefined : state.registrations[edge.registration];
   const alignment = edge.alignment === undefined ? undefined : state.alignments[edge.alignment];
   const rows: [string, string][] = [];
-  if (apart !== undefined) rows.push(['nodes', `${metres(apart)} apart as placed`]);
+  const [a, b] = [edge.a, edge.b].map((id) => state.nodes.find((one) => one.id === id));
+  if (apart !== undefined)
+    rows.push(['nodes', comparable(a, b) ? `${metres(apart)} apart as placed` : kNoDistance]);
   if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
   return [
     el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kKinds[edge.kind]}: ${edge.b} → ${edge.a}`),

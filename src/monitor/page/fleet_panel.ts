@@ -1,12 +1,14 @@
 import uPlot from 'uplot';
 import {type Actions, type Child, dot, el} from './dom';
-import {colourOf, duration, metres, type Robot, type State} from './model';
+import {colourOf, duration, type Live, metres, placeMark, type Robot, type State} from './model';
 
 /** Each robot in words, who holds what, and nodes over time. */
 export class FleetPanel {
   private plot?: uPlot;
   private chart = el('div', {class: 'chart'});
   private state?: State;
+  private live?: Live;
+  private totals = el('tbody');
   private root: HTMLElement;
 
   /** `now` stays above what the state shows. */
@@ -33,6 +35,39 @@ export class FleetPanel {
       this.chart,
     );
     this.draw(state);
+    if (this.live) this.showNow(this.live);
+  }
+
+  /** Robots whose stores are elsewhere report how much they hold, but not of whom. */
+  showNow(live: Live): void {
+    this.live = live;
+    const state = this.state;
+    if (!state) return;
+    const known = new Set(state.holdings.map((one) => one.holder));
+    const all = live.robots.reduce((max, robot) => Math.max(max, robot.nodes), state.nodes.length);
+    const others = live.robots.filter((robot) => robot.nodes > 0 && !known.has(robot.id));
+    this.totals.replaceChildren(
+      ...others.map((robot) =>
+        el(
+          'tr',
+          {},
+          el('th', {scope: 'row'}, dot(state, robot.id), robot.id),
+          el(
+            'td',
+            {
+              colspan: String(state.robots.length),
+              title: `${robot.id} lacks ${all - robot.nodes} nodes and ${all - robot.submaps} submaps of ${all} in all`,
+            },
+            el(
+              'div',
+              {class: 'fill'},
+              el('i', {style: `width:${((100 * robot.submaps) / all).toFixed(1)}%`}),
+              el('span', {}, `${robot.nodes} / ${robot.submaps} of all robots, as it reports`),
+            ),
+          ),
+        ),
+      ),
+    );
   }
 
   private card(state: State, robot: Robot): HTMLElement {
@@ -73,7 +108,7 @@ export class FleetPanel {
             : 'alone',
       ),
     ];
-    if (robot.nodes > 0 && !robot.georeferenced) badges.push(el('span', {class: 'badge bad'}, 'no place on Earth'));
+    if (placeMark(robot)) badges.push(el('span', {class: 'badge bad'}, placeMark(robot)));
     if (robot.quarantined) badges.push(el('span', {class: 'badge bad'}, 'quarantined'));
     if (robot.id === state.self) badges.push(el('span', {class: 'badge'}, 'its map is shown'));
     return el(
@@ -124,7 +159,7 @@ export class FleetPanel {
     return el(
       'div',
       {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Who holds whose nodes and submaps'},
-      el('table', {class: 'holdings'}, el('thead', {}, head), el('tbody', {}, ...rows)),
+      el('table', {class: 'holdings'}, el('thead', {}, head), el('tbody', {}, ...rows), this.totals),
       el('p', {class: 'hint'}, 'nodes / submaps; the bar is the share of submaps held'),
     );
   }

@@ -6,7 +6,7 @@ import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {type Edge, edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, duration, type State} from './model';
+import {colourOf, count, duration, placeMark, type State} from './model';
 import {FleetNow} from './fleet_now';
 import {PairView} from './pair_view';
 import {el} from './dom';
@@ -55,6 +55,7 @@ follow({
     byId('tab-radio').hidden = false;
     if (!state) byId('summary').textContent = `${live.robots.length} robots · no nodes yet`;
     now.show(live, state);
+    fleet.showNow(live);
     radio.show(live);
   },
   onConnection(connected) {
@@ -204,11 +205,16 @@ let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = colour + ends.join() + state.robots.length;
+  const key = colour + ends.join() + state.robots.map((robot) => robot.id + placeMark(robot)).join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
-    el('span', {}, el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}), robot.id),
+    el(
+      'span',
+      {},
+      el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}),
+      placeMark(robot) ? `${robot.id} (${placeMark(robot)})` : robot.id,
+    ),
   );
   if (colour === 'robot') byId('legend').replaceChildren(...robots);
   else

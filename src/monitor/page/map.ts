@@ -8,7 +8,7 @@ import {MapCamera} from './map_camera';
 import {kModes, type ColourMode, pointStyle} from './point_material';
 import type {Picture} from './legend';
 import {drawsOnCpu, type Effort, kStill_ms, drawnShare, Pace} from './pace';
-import {type Place, placeOf, pointAt} from './picking';
+import {type Picked, type Place, placeOf, pointAt} from './picking';
 import {Shading} from './shading';
 import {matrixOf} from './submap';
 import {Submaps} from './submaps';
@@ -96,6 +96,7 @@ export class FleetMap {
         this.submaps.add(node.submap, node.robot, node.t, colourOf(state, node.robot));
       submap.place(T);
       submap.sigma_m = node.sigma_m;
+      submap.floating = node.floating;
     }
     this.submaps.keepOnly(wanted);
     this.ramp = undefined;
@@ -172,7 +173,7 @@ export class FleetMap {
     return hitAt({x, y}, pixels, this.layers.nodes, shown, reach);
   }
 
-  pointAt(x: number, y: number, reach: number): THREE.Vector3 | undefined {
+  pointAt(x: number, y: number, reach: number): Picked | undefined {
     return pointAt(this.submaps.all.values(), this.eye.camera, this.canvas, x, y, reach);
   }
 

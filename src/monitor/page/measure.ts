@@ -1,7 +1,7 @@
 import type * as THREE from 'three';
 import {geoText, toGeo, utmText, type Geo} from './geodesy';
 import type {FleetMap} from './map';
-import {metres} from './model';
+import {comparable, kNoDistance, kNotGeoreferenced, metres} from './model';
 import {el} from './dom';
 
 const kSvg = 'http://www.w3.org/2000/svg';
@@ -9,7 +9,7 @@ const kSvg = 'http://www.w3.org/2000/svg';
 /** Two clicks on points of the map: distance, height and coordinates. */
 export class Measure {
   active = false;
-  private picked: THREE.Vector3[] = [];
+  private picked: {p: THREE.Vector3; floating?: number}[] = [];
 
   constructor(
     private map: FleetMap,
@@ -33,19 +33,25 @@ export class Measure {
   }
 
   click(x: number, y: number, reach: number, origin: Geo): void {
-    const p = this.map.pointAt(x, y, reach);
-    if (!p) return;
-    this.picked = this.picked.length === 2 ? [p] : [...this.picked, p];
-    const rows = this.picked.flatMap((point, k) => {
-      const geo = toGeo(origin, point.toArray()),
-        enu = point
+    const at = this.map.pointAt(x, y, reach);
+    if (!at) return;
+    const one = {p: at.p, floating: at.submap.floating};
+    this.picked = this.picked.length === 2 ? [one] : [...this.picked, one];
+    const rows = this.picked.flatMap(({p, floating}, k) => {
+      const geo = toGeo(origin, p.toArray()),
+        enu = p
           .toArray()
           .map((v) => v.toFixed(2))
           .join(', ');
-      return [el('dt', {}, 'AB'[k]), el('dd', {}, geoText(geo), el('br'), utmText(geo), el('br'), `ENU ${enu} m`)];
+      const place =
+        floating === undefined
+          ? [geoText(geo), el('br'), utmText(geo), el('br'), `ENU ${enu} m`]
+          : [`Place on Earth ${kNotGeoreferenced}`, el('br'), `on the map ${enu} m`];
+      return [el('dt', {}, 'AB'[k]), el('dd', {}, ...place)];
     });
-    const [a, b] = this.picked;
-    if (b) {
+    const [a, b] = this.picked.map(({p}) => p);
+    if (b && !comparable(this.picked[0], this.picked[1])) rows.push(el('dt', {}, 'A to B'), el('dd', {}, kNoDistance));
+    else if (b) {
       const flat = Math.hypot(b.x - a.x, b.y - a.y);
       rows.push(
         el('dt', {}, 'distance'),
@@ -61,7 +67,7 @@ export class Measure {
   }
 
   draw(): void {
-    const places = this.picked.map((p) => this.map.project(p));
+    const places = this.picked.map(({p}) => this.map.project(p));
     const shapes: SVGElement[] = [];
     const shape = (name: string, attributes: Record<string, string | number>, text = '') => {
       const one = document.createElementNS(kSvg, name);

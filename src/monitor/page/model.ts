@@ -12,7 +12,7 @@ export interface Robot {
   alignments_used?: number;
   alignments_rejected?: number;
   quarantined?: boolean;
-  georeferenced: boolean;
+  sessions_not_georeferenced: number;
 }
 
 /** x, y, z in m of ENU, and a unit quaternion x, y, z, w. */
@@ -29,6 +29,7 @@ export interface FleetNode {
   submap?: string;
   gps_sigma_m?: number;
   sigma_m?: number;
+  floating?: number; // its component, where nothing ties that to a place on Earth: its T is an assumption
 }
 
 export interface Alignment {
@@ -53,6 +54,7 @@ export interface Registration {
   overlap: number | null;
   reason: string;
   sentence: string;
+  t?: number; // when it was done, s after the first node; older programs did not log it
   pose?: PoseValues; // T_target_source of its best mode, also where it was rejected
 }
 
@@ -73,6 +75,7 @@ export interface Pair {
   attempts: number;
   accepted: number;
   used: number;
+  missing_logs: string[]; // of the two: what these registered is not known here
   nearest_m: number | null;
   nearest?: [string, string];
 }
@@ -85,6 +88,7 @@ export interface State {
   nodes: FleetNode[];
   alignments: Alignment[];
   registrations: Registration[];
+  logs: string[]; // robots whose registrations are known
   holdings: Holding[];
   pairs: Pair[];
   notes: string[];
@@ -107,6 +111,20 @@ const kRobotColours = [
 export function colourOf(state: State, robot: string): string {
   const index = state.robots.findIndex((one) => one.id === robot);
   return kRobotColours[Math.max(0, index) % kRobotColours.length];
+}
+
+export const kNotGeoreferenced = 'not known: no GPS fix and no alignment ties it to a place on Earth';
+export const kNoDistance = 'distance not known: nothing ties their frames to each other';
+
+/** Why the coordinates of a robot's nodes do not count, all or some; empty where they do. */
+export function placeMark({nodes, sessions, sessions_not_georeferenced: without}: Robot): string {
+  if (nodes === 0 || without === 0) return '';
+  return without < sessions ? `${without} of ${sessions} sessions not georeferenced` : 'not georeferenced';
+}
+
+/** The distance of two places on the map is one on the site. */
+export function comparable(a: {floating?: number} | undefined, b: {floating?: number} | undefined): boolean {
+  return a?.floating === b?.floating;
 }
 
 export function duration(seconds: number): string {

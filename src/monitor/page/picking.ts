@@ -15,6 +15,12 @@ export function placeOf(p: THREE.Vector3, camera: THREE.Camera, canvas: HTMLCanv
   return {x: ((q.x + 1) / 2) * canvas.clientWidth, y: ((1 - q.y) / 2) * canvas.clientHeight, depth: q.z};
 }
 
+/** A drawn point, m of ENU, and the submap that it is of. */
+export interface Picked {
+  p: THREE.Vector3;
+  submap: Submap;
+}
+
 /** The drawn point that is seen at a pixel: the nearest to the eye of those within `reach`. */
 export function pointAt(
   submaps: Iterable<Submap>,
@@ -23,13 +29,13 @@ export function pointAt(
   x: number,
   y: number,
   reach: number,
-): THREE.Vector3 | undefined {
+): Picked | undefined {
   const p = new THREE.Vector3(),
     q = new THREE.Vector3();
   const view = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
   const w = canvas.clientWidth,
     h = canvas.clientHeight;
-  let best: THREE.Vector3 | undefined,
+  let best: Picked | undefined,
     minCost = Infinity;
   for (const submap of submaps) {
     for (let k = 0; k < submap.drawn; ++k) {
@@ -41,7 +47,7 @@ export function pointAt(
       if (off2 > reach * reach || q.z < -1 || q.z > 1) continue;
       // A point in front wins by far; of those at one depth that under the pointer.
       const cost = q.z * 1e6 + off2;
-      if (cost < minCost) [minCost, best] = [cost, p.clone()];
+      if (cost < minCost) [minCost, best] = [cost, {p: p.clone(), submap}];
     }
   }
   return best;

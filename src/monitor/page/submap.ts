@@ -69,6 +69,7 @@ export class Submap {
   asked = false;
   failed = false;
   sigma_m: number | undefined; // of its node in ENU, horizontal
+  floating: number | undefined; // of its node
   visible = true;
   private blocks: number[] = [];
   private T = new THREE.Matrix4();

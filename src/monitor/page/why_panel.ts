@@ -3,6 +3,7 @@ import {findPair, metres, type Pair, type Registration, type State} from './mode
 
 const kVerdicts = ['accepted', 'ambiguous', 'rejected', 'failed'] as const;
 const kRows = 100;
+const kRecent_s = 60;
 
 /** Registrations and their reasons, and what joins each pair of robots. */
 export class WhyPanel {
@@ -11,6 +12,7 @@ export class WhyPanel {
   private hasChosen = false; // the reader, a pair or none
   private verdict: string = 'all';
   private robot: string = 'all';
+  private recent = false; // those of the last minute alone, the newest first
   private rows = kRows;
   private selected = -1;
 
@@ -135,7 +137,7 @@ export class WhyPanel {
     const facts = el(
       'p',
       {class: 'facts'},
-      `${pair.attempts} registrations, ${pair.accepted} accepted, ${pair.used} in use`,
+      `${pair.attempts} registrations${knownOf(pair)}, ${pair.accepted} accepted, ${pair.used} in use`,
       pair.nearest_m !== null && `; nearest nodes ${metres(pair.nearest_m)} apart: `,
     );
     for (const id of pair.nearest ?? []) {
@@ -150,13 +152,16 @@ export class WhyPanel {
   /** Those that the filters let through, but for the verdict: the chips count them. */
   private filtered(state: State): [Registration, number][] {
     const of = (id: string) => id.split(/[#/]/)[0];
-    return state.registrations
+    const since = this.recent ? lastMinute(state) : -Infinity;
+    const all = state.registrations
       .map((one, k): [Registration, number] => [one, k])
       .filter(([one]) => {
+        if (this.recent && !(one.t !== undefined && one.t >= since)) return false;
         const robots = [of(one.target), of(one.source)];
         if (this.pair && !(robots.includes(this.pair[0]) && robots.includes(this.pair[1]))) return false;
         return this.robot === 'all' || robots.includes(this.robot) || one.by === this.robot;
       });
+    return this.recent ? all.sort(([a], [b]) => b.t! - a.t!) : all;
   }
 
   private filters(state: State): HTMLElement {
@@ -182,6 +187,17 @@ export class WhyPanel {
       };
       return chip;
     });
+    const recent = el(
+      'button',
+      {type: 'button', id: 'last-minute', class: 'chip', 'aria-pressed': String(this.recent)},
+      'Last minute',
+    );
+    recent.hidden = state.registrations.every((one) => one.t === undefined);
+    recent.onclick = () => {
+      this.recent = !this.recent;
+      this.rows = kRows;
+      this.render();
+    };
     const select = el(
       'select',
       {id: 'robot-filter', 'aria-label': 'Robot'},
@@ -197,7 +213,7 @@ export class WhyPanel {
       'div',
       {class: 'filters'},
       el('h2', {}, this.pair ? `Registrations of ${this.pair.join(' and ')}` : 'Registrations'),
-      el('div', {class: 'chips'}, ...chips, select),
+      el('div', {class: 'chips'}, ...chips, recent, select),
     );
   }
 
@@ -238,9 +254,24 @@ export class WhyPanel {
         el(
           'li',
           {class: 'hint'},
-          state.registrations.length > 0 ? 'None of these.' : 'No registrations.csv lies beside the store.',
+          state.registrations.length > 0
+            ? 'None of these.'
+            : state.logs.length > 0
+              ? `None yet by ${state.logs.join(', ')}, whose registrations are known here.`
+              : 'No registrations.csv lies beside the store.',
         ),
       );
     return list;
   }
+}
+
+/** Begin of the last minute of all that is shown. */
+function lastMinute(state: State): number {
+  const times = [...state.nodes, ...state.registrations].map((one) => one.t ?? -Infinity);
+  return times.reduce((max, t) => Math.max(max, t), -Infinity) - kRecent_s;
+}
+
+/** Where the log of one of the two is not here, there may be more. */
+function knownOf({missing_logs}: Pair): string {
+  return missing_logs.length > 0 ? ` known here (without those of ${missing_logs.join(' and ')})` : '';
 }

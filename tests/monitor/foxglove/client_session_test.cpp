@@ -28,7 +28,7 @@ using testing::ViewMaker;
 constexpr const char* kOffer = "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n";
 
 std::unique_ptr<Server> start(const ServerConfig& config = {}, std::size_t points = 50) {
-  auto load = [points](const NodeId&) {
+  auto load = [points](const NodeId&, const ContentHash&) {
     cloud::PointCloud cloud;
     for (std::size_t k = 0; k < points; ++k)
       cloud.points.emplace_back(0.001f * static_cast<float>(k), 1.0f, 2.0f);

@@ -51,7 +51,7 @@ class FeedTest : public ::testing::Test {
   bool readable_ = true;
   FakeLoop loop_;
   Content content_{{},
-                   [this](const NodeId& id) -> Result<cloud::PointCloud> {
+                   [this](const NodeId& id, const ContentHash&) -> Result<cloud::PointCloud> {
                      loaded_.push_back(id);
                      if (!readable_) return failure("disk error");
                      cloud::PointCloud cloud;

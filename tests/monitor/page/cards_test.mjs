@@ -35,6 +35,18 @@ assert.match(first.rows.WGS84, /49\.0+.*8\.40+/);
 assert.equal(first.rows.GPS, 'known to 0.26 m (1 σ) before alignment');
 assert.equal(first.rows.submap, '51 kB, held');
 assert.equal(first.rows.alignments, '2');
+const floating = state({
+  nodes: [node('r1', 0), node('r2', 0, [0, 10, 0], {floating: 1}), node('r2', 1, [0, 15, 0], {floating: 1})],
+});
+const nowhere = content(nodeCard(floating, 'r2#0', new Vector3(0, 10, 0))).rows;
+assert.equal(nowhere.ENU, undefined, 'its place is an assumption');
+assert.equal(nowhere.WGS84, undefined);
+assert.equal(nowhere['on the map'], '0.00, 10.00, 0.00 m');
+assert.match(nowhere['on Earth'], /^not known: no GPS fix/);
+const across = content(edgeCard(floating, {kind: 'rejected', a: 'r1#0', b: 'r2#0'}, 10)).rows;
+assert.match(across.nodes, /^distance not known/);
+const within = content(edgeCard(floating, {kind: 'rejected', a: 'r2#0', b: 'r2#1'}, 5)).rows;
+assert.equal(within.nodes, '5.00 m apart as placed');
 const second = content(nodeCard(shown, 'r1#75', undefined)).rows;
 assert.match(second.made, /^1:15 after the first node, by r1$|^1 min 15 s after the first node, by r1$/);
 assert.equal(second.ENU, undefined, 'it has no place on the map');

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {openPage, textOf} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
-import {node, pair, robot, state} from './states.mjs';
+import {live, node, pair, robot, robotNow, state} from './states.mjs';
 
 await openPage(process.argv[2], '<div id="fleet"></div>');
 const {FleetPanel} = await pageModule(process.argv[2], 'fleet_panel');
@@ -14,7 +14,7 @@ const holding = (holder, maker, nodes, submaps) => ({holder, maker, nodes, subma
 const fleet = state({
   robots: [
     robot('r1', {first_s: 0, last_s: 61, last_node: 'r1#1', sigma_m: 0.021, alignments_used: 3}),
-    robot('r2', {sessions: 2, quarantined: true, georeferenced: false}),
+    robot('r2', {sessions: 2, quarantined: true, sessions_not_georeferenced: 1}),
     robot('r3', {nodes: 0}),
   ],
   nodes: [node('r1', 0), node('r2', 1), node('r1', 2)],
@@ -30,7 +30,7 @@ assert.match(
   /r1joined with r2its map is shown2 nodes on 12\.3 m of path, from 0:00 to 1:01\. Last at r1#1, known to 2\.1 cm/,
 );
 assert.match(cards[0], /3 of its alignments are in use, 0 contradict\./);
-assert.match(cards[1], /joined with r1no place on Earthquarantined.*, in 2 sessions/);
+assert.match(cards[1], /joined with r11 of 2 sessions not georeferencedquarantined.*, in 2 sessions/);
 assert.match(cards[2], /joined with nobody.*made no node that is held here/);
 root.querySelector('article button').click();
 assert.deepEqual(chosen, ['r1#1']);
@@ -49,6 +49,33 @@ assert.deepEqual(cells, [
   ['4 / 3', '75.0%'],
   ['–', '0.0%'],
 ]);
+
+// Robots whose stores are elsewhere have a row of what they report, which follows their statuses.
+const totals = () =>
+  [...root.querySelectorAll('.holdings tbody:last-child tr')].map((row) => [
+    textOf(row),
+    row.querySelector('.fill i').style.width,
+    row.querySelector('td').getAttribute('title'),
+  ]);
+assert.deepEqual(totals(), []);
+const held = (id, nodes, submaps) => robotNow(id, {nodes, submaps});
+panel.showNow(live([held('r1', 4, 4), held('r2', 4, 3), held('r3', 8, 2), held('r4', 0, 0)]));
+assert.deepEqual(totals(), [
+  ['r38 / 2 of all robots, as it reports', '25.0%', 'r3 lacks 0 nodes and 6 submaps of 8 in all'],
+]);
+const table = root.querySelector('.holdings');
+panel.showNow(live([held('r1', 10, 4), held('r3', 8, 5)]));
+assert.deepEqual(totals(), [
+  ['r38 / 5 of all robots, as it reports', '50.0%', 'r3 lacks 2 nodes and 5 submaps of 10 in all'],
+]);
+assert.equal(root.querySelector('.holdings'), table, 'the table itself stays');
+panel.show(fleet);
+assert.equal(totals().length, 1, 'a newer state keeps them');
+const early = document.createElement('div');
+const opened = new FleetPanel(early, {selectNode() {}}, document.createElement('section'));
+opened.showNow(live([held('r3', 8, 2)]));
+opened.show(fleet);
+assert.match(textOf(early.querySelector('.holdings')), /8 \/ 2 of all robots/, 'the status came before the state');
 
 // Nodes over time are counted per robot at the times of all.
 const plot = FakePlot.shown.at(-1);

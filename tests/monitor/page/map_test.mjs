@@ -99,6 +99,14 @@ try {
   map.draw();
   assert.equal(frames(), 1);
 
+  // A submap is as floating as its node.
+  const [first] = fleet().nodes;
+  map.show(fleet({nodes: fleet().nodes.map((one) => (one.id === first.id ? {...one, floating: 2} : one))}));
+  assert.equal(map.submaps.all.get(first.submap).floating, 2);
+  map.show(fleet());
+  assert.equal(map.submaps.all.get(first.submap).floating, undefined);
+  await settle();
+
   // The whole fleet is in view, and a click finds nodes and edges where they are seen.
   const at = (id) => map.project(map.place(id));
   for (const {id} of fleet().nodes) {

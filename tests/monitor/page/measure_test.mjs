@@ -10,7 +10,11 @@ const {Vector3} = await three(process.argv[2]);
 const overlay = document.getElementById('overlay');
 let next = new Vector3(0, 0, 0);
 let seen = true;
-const map = {pointAt: () => next?.clone(), project: (p) => (seen ? {x: 10 * p.x, y: 10 * p.y, depth: 0} : undefined)};
+let floating;
+const map = {
+  pointAt: () => next && {p: next.clone(), submap: {floating}},
+  project: (p) => (seen ? {x: 10 * p.x, y: 10 * p.y, depth: 0} : undefined),
+};
 let card;
 const measure = new Measure(map, overlay, (content) => (card = content));
 const text = () => card.map(textOf).join(' ');
@@ -41,6 +45,18 @@ assert.deepEqual(shapes(), [], 'behind the camera');
 seen = true;
 click(1, 1, 1);
 assert.doesNotMatch(text(), /distance/, 'a third point begins anew');
+
+// Where nothing ties a frame to a place on Earth it has no coordinates there, and no distance to another frame.
+floating = 1;
+click(4, 1, 1);
+assert.match(text(), /BPlace on Earth not known: no GPS fix.*on the map 4\.00, 1\.00, 1\.00 m/);
+assert.equal(text().match(/UTM/g).length, 1, 'of A alone');
+assert.match(text(), /A to Bdistance not known/);
+assert.doesNotMatch(text(), /on the plan|height/);
+click(0, 0, 0);
+click(0, 3, 0);
+assert.doesNotMatch(text(), /UTM|°/);
+assert.match(text(), /distance3\.00 m/, 'within one frame there is a distance');
 measure.stop();
 assert.equal(card, null);
 assert.deepEqual(shapes(), []);

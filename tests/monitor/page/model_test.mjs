@@ -3,7 +3,10 @@ import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
 import {pair, robot, state} from './states.mjs';
 
-const {ago, bytes, colourOf, count, duration, findPair, linkName, metres} = await pageModule(process.argv[2], 'model');
+const {ago, bytes, colourOf, comparable, count, duration, findPair, linkName, metres, placeMark} = await pageModule(
+  process.argv[2],
+  'model',
+);
 const table = (act, cases) => {
   for (const [value, words] of cases) assert.equal(act(value), words, `${act.name}(${value})`);
 };
@@ -35,6 +38,17 @@ table(ago, [
   [3725, '1:02:05 h'],
 ]);
 assert.deepEqual(['long_range', 'short_range'].map(linkName), ['radio', 'Wi-Fi']);
+
+// Coordinates count where something ties a frame to a place on Earth, distances also within one component.
+assert.equal(placeMark(robot('r1')), '');
+assert.equal(placeMark(robot('r1', {nodes: 0, sessions_not_georeferenced: 1})), '', 'nothing of it is drawn');
+assert.equal(placeMark(robot('r1', {sessions_not_georeferenced: 1})), 'not georeferenced');
+assert.equal(
+  placeMark(robot('r1', {sessions: 3, sessions_not_georeferenced: 2})),
+  '2 of 3 sessions not georeferenced',
+);
+assert.ok(comparable({}, {}) && comparable({floating: 0}, {floating: 0}));
+assert.ok(!comparable({}, {floating: 0}) && !comparable({floating: 1}, {floating: 0}));
 
 // Ten robots have ten colours, which stay with their places.
 const many = state({robots: Array.from({length: 10}, (_, k) => robot(`r${k}`))});

@@ -10,7 +10,7 @@ camera.lookAt(0, 0, 0);
 camera.updateMatrixWorld();
 const canvas = {clientWidth: 80, clientHeight: 80}; // 10 pixels a metre, (40, 40) is above the origin
 const submap = (points, drawn = points.length) => ({drawn, point: (k, out) => out.set(...points[k])});
-const at = (submaps, x, y) => pointAt(submaps, camera, canvas, x, y, 6)?.toArray();
+const at = (submaps, x, y) => pointAt(submaps, camera, canvas, x, y, 6)?.p.toArray();
 
 const low = submap([
     [0, 0, 0],
@@ -50,7 +50,9 @@ assert.equal(
   undefined,
   'behind the eye, or beyond what is drawn',
 );
-assert.ok(new Vector3(0.3, 0, 5).equals(pointAt([high], camera, canvas, 40, 40, 6)), 'a vector of its own');
+const picked = pointAt([low, high], camera, canvas, 40, 40, 6);
+assert.ok(new Vector3(0.3, 0, 5).equals(picked.p), 'a vector of its own');
+assert.equal(picked.submap, high, 'it tells whose coordinates these are');
 
 const {x, y, depth} = placeOf(new Vector3(2, 1, 0), camera, canvas);
 assert.deepEqual([x, y].map(Math.round), [60, 30]);

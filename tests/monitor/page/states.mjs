@@ -12,7 +12,14 @@ export const node = (robot, k, [x, y, z] = [0, 0, 0], more = {}) => ({
   ...more,
 });
 
-export const robot = (id, more = {}) => ({id, nodes: 2, sessions: 1, path_m: 12.34, georeferenced: true, ...more});
+export const robot = (id, more = {}) => ({
+  id,
+  nodes: 2,
+  sessions: 1,
+  path_m: 12.34,
+  sessions_not_georeferenced: 0,
+  ...more,
+});
 
 export const registration = (target, source, verdict, more = {}) => ({
   target,
@@ -49,6 +56,7 @@ export const pair = (a, b, joined, more = {}) => ({
   attempts: 0,
   accepted: 0,
   used: 0,
+  missing_logs: [],
   nearest_m: null,
   ...more,
 });
@@ -61,6 +69,7 @@ export const state = (more = {}) => ({
   nodes: [node('r1', 0), node('r1', 1, [10, 0, 0]), node('r2', 0, [0, 10, 0]), node('r2', 1, [10, 10, 0])],
   alignments: [],
   registrations: [],
+  logs: ['r1', 'r2'],
   holdings: [],
   pairs: [pair('r1', 'r2', false)],
   notes: [],

@@ -65,6 +65,48 @@ select.value = 'r2';
 select.onchange();
 assert.deepEqual(shown(), ['r2#0 → r1#0', 'r3#0 → r2#0']);
 
+// Those of the last minute, the newest first: of r2 those that were rejected.
+const late = state({
+  robots: [robot('r1'), robot('r2')],
+  registrations: [
+    registration('r1#0', 'r2#0', 'rejected', {t: 100}),
+    registration('r1#1', 'r2#0', 'rejected', {t: 161}),
+    registration('r1#2', 'r1#0', 'rejected', {t: 200}),
+    registration('r1#3', 'r2#0', 'accepted', {t: 210}),
+    registration('r1#4', 'r2#0', 'rejected', {t: 220}),
+    registration('r1#5', 'r2#0', 'rejected'),
+  ],
+  pairs: [pair('r1', 'r2', true)],
+});
+const minute = document.createElement('div');
+const latest = new WhyPanel(minute, actions);
+latest.show({...late, registrations: [registration('r1#0', 'r2#0', 'rejected')]});
+assert.ok(minute.querySelector('#last-minute').hidden, 'no time is known');
+latest.show(late);
+const rows = () => [...minute.querySelectorAll('.registration .who')].map((one) => one.textContent.split(' → ')[1]);
+assert.equal(rows().length, 6);
+assert.ok(!minute.querySelector('#last-minute').hidden);
+minute.querySelector('#last-minute').click();
+assert.equal(minute.querySelector('#last-minute').getAttribute('aria-pressed'), 'true');
+assert.deepEqual(rows(), ['r1#4', 'r1#3', 'r1#2', 'r1#1']);
+minute.querySelector('#verdict-rejected').click();
+const robots = minute.querySelector('#robot-filter');
+robots.value = 'r2';
+robots.onchange();
+assert.deepEqual(rows(), ['r1#4', 'r1#1']);
+assert.equal(minute.querySelector('.registration').getAttribute('data-index'), '4', 'its place among all');
+minute.querySelector('#last-minute').click();
+assert.equal(rows().length, 4);
+
+// Where the log of one of the two is elsewhere, the numbers are of those that are known.
+const page = state({logs: ['r2'], pairs: [pair('r1', 'r2', false, {attempts: 2, missing_logs: ['r1']})]});
+const other = document.createElement('div');
+new WhyPanel(other, actions).show(page);
+assert.match(textOf(other.querySelector('.facts')), /^2 registrations known here \(without those of r1\), 0 accepted/);
+assert.match(textOf(other.querySelector('.registrations')), /None yet by r2, whose registrations are known here/);
+new WhyPanel(other, actions).show({...page, logs: []});
+assert.match(textOf(other.querySelector('.registrations')), /No registrations\.csv lies beside the store/);
+
 // A choice here is one of all registrations, by its index; the mark follows it, also through a newer state.
 [...root.querySelectorAll('.registration')].at(-1).click();
 assert.equal(chosen.at(-1), 3);
