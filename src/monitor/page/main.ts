@@ -1,4 +1,5 @@
 import {edgeCard, nodeCard} from './cards';
+import {RobotColours} from './colours';
 import {follow} from './live';
 import type {Hit} from './hit';
 import {type Picture, rampEnds, scaleLength} from './legend';
@@ -37,7 +38,9 @@ const radio = new RadioPanel(byId('radio'));
 
 // The state.
 
+const colours = new RobotColours();
 function showState(next: State): void {
+  next.colours = colours.of(next.robots.map((robot) => robot.id));
   state = next;
   document.title = `${next.title} – fleetmap`;
   byId('title').textContent = next.title;
@@ -53,6 +56,7 @@ follow({
   onState: showState,
   onLive(live) {
     byId('tab-radio').hidden = false;
+    colours.of(live.robots.map((robot) => robot.id)); // also of those that are not heard yet
     if (!state) byId('summary').textContent = `${live.robots.length} robots · no nodes yet`;
     now.show(live, state);
     radio.show(live);
@@ -204,7 +208,7 @@ let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = colour + ends.join() + state.robots.length;
+  const key = [colour, ...ends, ...state.robots.map((robot) => robot.id)].join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
@@ -266,9 +270,11 @@ const redraw = () => {
 };
 joinTabs([byId('tab-why'), byId('tab-fleet'), byId('tab-radio')], redraw);
 
+const isDark = () => getComputedStyle(document.documentElement).colorScheme === 'dark';
 byId('theme').onclick = () => {
-  const dark = getComputedStyle(document.documentElement).colorScheme === 'dark';
-  document.documentElement.dataset.theme = dark ? 'light' : 'dark';
+  document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
   redraw();
-  map?.draw();
+  map?.setDark(isDark());
 };
+map?.setDark(isDark());
+matchMedia('(prefers-color-scheme: dark)').onchange = () => map?.setDark(isDark());

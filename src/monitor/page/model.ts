@@ -1,4 +1,5 @@
 // The fleet's state as the program sends it (src/monitor/state_json.cpp).
+import {kStranger} from './colours';
 
 export interface Robot {
   id: string;
@@ -88,25 +89,11 @@ export interface State {
   holdings: Holding[];
   pairs: Pair[];
   notes: string[];
+  colours: ReadonlyMap<string, string>; // of robots; the page adds them (colours.ts)
 }
 
-// Told apart by people with any colour vision, on light and on dark ground.
-const kRobotColours = [
-  '#2f7de1',
-  '#e8743b',
-  '#1fa774',
-  '#d1477a',
-  '#b58900',
-  '#7d5bd6',
-  '#1598a8',
-  '#8c6243',
-  '#5f7488',
-  '#7a8b2a',
-];
-
 export function colourOf(state: State, robot: string): string {
-  const index = state.robots.findIndex((one) => one.id === robot);
-  return kRobotColours[Math.max(0, index) % kRobotColours.length];
+  return state.colours.get(robot) ?? kStranger;
 }
 
 export function duration(seconds: number): string {

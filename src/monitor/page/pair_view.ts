@@ -6,7 +6,7 @@ import {el} from './dom';
 import {matrixOf, type Submap} from './submap';
 
 const kTarget = '#2f7de1',
-  kSource = '#e8743b';
+  kSource = '#d05a1b';
 
 /** The two clouds of a registration alone on the map: before it, at each pose that it found, and as placed. */
 export class PairView {

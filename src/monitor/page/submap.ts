@@ -1,4 +1,5 @@
 import * as THREE from 'three';
+import {kStranger} from './colours';
 import type {PoseValues} from './model';
 import {rgbOf} from './point_material';
 import {kBlock, type PointPool} from './point_pool';
@@ -84,8 +85,14 @@ export class Submap {
     readonly robot: string,
     readonly t: number,
     private pool: PointPool,
-    private colour: string,
+    private colour_ = kStranger,
   ) {}
+
+  /** Its robot's. */
+  set colour(colour: string) {
+    this.stale ||= colour !== this.colour_;
+    this.colour_ = colour;
+  }
 
   place(T_enu_node: THREE.Matrix4): void {
     this.T.copy(T_enu_node);
@@ -143,7 +150,7 @@ export class Submap {
   dress(): void {
     if (!this.stale) return;
     this.stale = false;
-    const colour = rgbOf(this.tinted ?? this.colour);
+    const colour = rgbOf(this.tinted ?? this.colour_);
     for (const block of this.blocks) this.pool.dress(block, this.matrix, colour, this.share_);
   }
 

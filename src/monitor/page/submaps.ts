@@ -37,8 +37,8 @@ export class Submaps {
     this.pool = new PointPool(style);
   }
 
-  add(hash: string, robot: string, t: number, colour: string): Submap {
-    const submap = new Submap(hash, robot, t, this.pool, colour);
+  add(hash: string, robot: string, t: number): Submap {
+    const submap = new Submap(hash, robot, t, this.pool);
     this.all.set(hash, submap);
     return submap;
   }

@@ -99,6 +99,31 @@ try {
   map.draw();
   assert.equal(frames(), 1);
 
+  // Points have their robot's colour, also where it changes; a theme is a picture.
+  const coloursOfBlocks = () => {
+    const found = new Set();
+    for (const {block} of map.submaps.pool.runs)
+      found.add([...map.submaps.pool.styleOf(block).slice(12, 15)].map((v) => Math.round(255 * v)).join());
+    return [...found].sort();
+  };
+  assert.deepEqual(coloursOfBlocks(), ['208,90,27', '47,125,225']);
+  map.show(
+    fleet({
+      colours: new Map([
+        ['r1', '#010203'],
+        ['r2', '#2f7de1'],
+      ]),
+    }),
+  );
+  await settle();
+  assert.deepEqual(coloursOfBlocks(), ['1,2,3', '47,125,225']);
+  map.show(fleet());
+  await settle();
+  map.setDark(true);
+  assert.equal(frames(), 1);
+  map.setDark(false);
+  frames();
+
   // The whole fleet is in view, and a click finds nodes and edges where they are seen.
   const at = (id) => map.project(map.place(id));
   for (const {id} of fleet().nodes) {

@@ -64,6 +64,10 @@ export const state = (more = {}) => ({
   holdings: [],
   pairs: [pair('r1', 'r2', false)],
   notes: [],
+  colours: new Map([
+    ['r1', '#2f7de1'],
+    ['r2', '#d05a1b'],
+  ]),
   ...more,
 });
 
