@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
 
 #include "monitor/views.hpp"
 #include "store/items.hpp"
@@ -53,6 +55,27 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   EXPECT_EQ(state["alignments"][0]["poses"][0].size(), 7u);
   EXPECT_EQ(state["pairs"][0]["joined"], true);
   EXPECT_EQ(state["holdings"][0]["submaps"], 1);
+}
+
+TEST(StateJson, the_covariance_of_a_robots_place_is_along_east_and_north) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 1);
+  Matrix6d C = Matrix6d::Zero();
+  C.diagonal() << 0.09, 0.01, 9.0, 1.0, 1.0, 1.0;
+  const NodeId last = node_id("r1", 0);
+  fleet.view.placement.covariance[last] = C;
+  const auto covariance = [&](double yaw) {
+    fleet.view.placement.T_enu_node[last] =
+        make_pose(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix(), {1.0, 2.0, 3.0});
+    return nlohmann::json::parse(state_json(fleet.view))["robots"][0]["covariance_m2"]
+        .get<std::vector<double>>();
+  };
+  EXPECT_THAT(covariance(0.0), ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.09, 0.0, 0.01}));
+  EXPECT_THAT(covariance(std::numbers::pi / 2.0),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.01, 0.0, 0.09}))
+      << "the robot looks north: its own x axis is north";
+  EXPECT_THAT(covariance(std::numbers::pi / 4.0),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.05, 0.04, 0.05}));
 }
 
 TEST(StateJson, names_of_nodes_come_with_their_session_and_text_that_is_no_UTF_8_harms_nothing) {

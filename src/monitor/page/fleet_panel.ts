@@ -52,7 +52,7 @@ export class FleetPanel {
       facts.append(
         ' Last at ',
         button,
-        robot.sigma_m !== undefined ? `, known to ${(100 * robot.sigma_m).toFixed(1)} cm (1 σ).` : '.',
+        typeof robot.sigma_m === 'number' ? `, known to ${(100 * robot.sigma_m).toFixed(1)} cm (1 σ).` : '.',
       );
     }
     if (robot.alignments_used !== undefined)

@@ -2,13 +2,14 @@ import {edgeCard, nodeCard} from './cards';
 import {RobotColours} from './colours';
 import {follow} from './live';
 import type {Hit} from './hit';
-import {type Picture, rampEnds, scaleLength} from './legend';
+import {linkKeys, type Picture, rampEnds, scaleLength} from './legend';
 import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {type Edge, edgeOfRegistration} from './edges';
 import {Measure} from './measure';
 import {colourOf, count, duration, type State} from './model';
 import {FleetNow} from './fleet_now';
+import {RobotMarks} from './robot_marks';
 import {PairView} from './pair_view';
 import {el} from './dom';
 import {FleetPanel} from './fleet_panel';
@@ -20,6 +21,7 @@ const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) 
 const canvas = byId<HTMLCanvasElement>('canvas');
 
 let state: State | undefined;
+let isLive = false; // a running robot sends its status
 let map: FleetMap | undefined;
 try {
   map = new FleetMap(canvas);
@@ -29,6 +31,7 @@ try {
     'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
 }
 const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
+const marks = map && new RobotMarks(map, document.getElementById('robots') as unknown as SVGSVGElement);
 const pairView = map && new PairView(map);
 const actions = {selectNode: (id: string) => select({node: id}, true), selectRegistration};
 const why = new WhyPanel(byId('why'), actions);
@@ -59,6 +62,8 @@ follow({
     colours.of(live.robots.map((robot) => robot.id)); // also of those that are not heard yet
     if (!state) byId('summary').textContent = `${live.robots.length} robots · no nodes yet`;
     now.show(live, state);
+    marks?.showLive(live);
+    isLive = true;
     radio.show(live);
   },
   onConnection(connected) {
@@ -156,6 +161,12 @@ for (const layer of ['points', 'paths', 'nodes', 'used', 'unused', 'rejected'] a
   };
 }
 
+byId<HTMLInputElement>('layer-robots').onchange = (event) => {
+  if (!marks) return;
+  marks.shown = (event.target as HTMLInputElement).checked;
+  marks.draw();
+};
+
 // A phone draws less than a laptop; whoever drives the slider decides.
 const budget = byId<HTMLInputElement>('budget');
 const memory = (navigator as {deviceMemory?: number}).deviceMemory ?? 4;
@@ -178,6 +189,7 @@ function setTime(): void {
   if (map) {
     map.until = share >= 1 ? Infinity : share * end;
     map.remark();
+    marks?.show(state, map.until);
   }
 }
 byId('time').oninput = setTime;
@@ -185,6 +197,7 @@ byId('time').oninput = setTime;
 if (map) map.onPicture = showPicture;
 function showPicture(picture: Picture): void {
   measure?.draw();
+  marks?.draw();
   canvas.dataset.drawn = String(picture.drawn);
   if (picture.moving) return;
   byId('drawn').textContent =
@@ -208,15 +221,14 @@ let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = [colour, ...ends, ...state.robots.map((robot) => robot.id)].join();
+  const key = [colour, isLive, ...ends, ...state.robots.map((robot) => robot.id)].join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
     el('span', {}, el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}), robot.id),
   );
-  if (colour === 'robot') byId('legend').replaceChildren(...robots);
-  else
-    byId('legend').replaceChildren(...robots, el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]));
+  const ramp = el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]);
+  byId('legend').replaceChildren(...robots, ...(isLive ? linkKeys() : []), ...(colour === 'robot' ? [] : [ramp]));
 }
 
 // Pointer and keys.

@@ -10,6 +10,7 @@ export interface Robot {
   last_s?: number;
   last_node?: string;
   sigma_m?: number;
+  covariance_m2?: [number, number, number]; // of the last node's place: xx, xy, yy
   alignments_used?: number;
   alignments_rejected?: number;
   quarantined?: boolean;
