@@ -119,6 +119,7 @@ json attempts_json(const FleetView& view, const Outcomes& outcomes) {
                         {"source", to_string(attempt.source)},
                         {"by", attempt.by.str()},
                         {"verdict", attempt.verdict},
+                        {"alignment", matched[k] ? json(*matched[k]) : json()},
                         {"status", status ? json(graph::to_string(*status)) : json()},
                         {"rmse_m", optional_json(attempt.rmse_m, 1e5)},
                         {"inlier_fraction", optional_json(attempt.inlier_fraction, 1e5)},

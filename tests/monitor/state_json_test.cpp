@@ -101,6 +101,9 @@ TEST(StateJson, a_pair_registered_twice_has_an_alignment_each) {
   const auto state = nlohmann::json::parse(state_json(fleet.view));
   EXPECT_EQ(state["registrations"][0]["status"], "against others");
   EXPECT_EQ(state["registrations"][2]["status"], "used");
+  EXPECT_EQ(state["registrations"][0]["alignment"], 0);
+  EXPECT_TRUE(state["registrations"][1]["alignment"].is_null());
+  EXPECT_EQ(state["registrations"][2]["alignment"], 1);
 }
 
 TEST(StateJson, an_empty_fleet_is_a_state_too) {

@@ -4,7 +4,12 @@ import type {Edge} from './edges';
 import {geoText, toGeo} from './geodesy';
 import {duration, metres, type State} from './model';
 
-const kKinds = {used: 'Alignment in use', unused: 'Alignment not used', rejected: 'Rejected registration'};
+const kVerdicts = {
+  accepted: 'Accepted registration, whose alignment is not held here',
+  ambiguous: 'Ambiguous registration, whose alignment is not held here',
+  rejected: 'Rejected registration',
+  failed: 'Failed registration',
+};
 
 /** Describes a node, which the map has at `p` (m of ENU); null if there is no such node. */
 export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTMLElement[] | null {
@@ -28,11 +33,13 @@ export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTML
 export function edgeCard(state: State, edge: Edge, apart: number | undefined): HTMLElement[] {
   const registration = edge.registration === undefined ? undefined : state.registrations[edge.registration];
   const alignment = edge.alignment === undefined ? undefined : state.alignments[edge.alignment];
+  const use = edge.kind === 'used' ? 'Alignment in use' : 'Alignment not used';
+  const title = alignment || !registration ? use : kVerdicts[registration.verdict];
   const rows: [string, string][] = [];
   if (apart !== undefined) rows.push(['nodes', `${metres(apart)} apart as placed`]);
   if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
   return [
-    el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kKinds[edge.kind]}: ${edge.b} → ${edge.a}`),
+    el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${title}: ${edge.b} → ${edge.a}`),
     el('p', {}, registration?.sentence ?? alignment?.sentence ?? ''),
     table(rows),
   ];

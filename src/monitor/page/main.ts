@@ -97,11 +97,8 @@ function selectEdge(edge: Edge, go: boolean): void {
 }
 
 function selectRegistration(index: number): void {
-  const one = state!.registrations[index];
-  const known = map?.edges.find((edge) => edge.registration === index);
-  const edge: Edge = known ?? edgeOfRegistration(one, index);
   why.mark(index);
-  select({edge}, true);
+  select({edge: edgeOfRegistration(state!, index)}, true);
 }
 
 function showCard(content: HTMLElement[] | null): void {

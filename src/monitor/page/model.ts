@@ -49,6 +49,7 @@ export interface Registration {
   source: string;
   by: string;
   verdict: 'accepted' | 'ambiguous' | 'rejected' | 'failed';
+  alignment: number | null; // that came of it: index in State.alignments
   status: string | null;
   rmse_m: number | null;
   inlier_fraction: number | null;
@@ -118,6 +119,17 @@ export function metres(m: number): string {
 
 export function findPair(state: State, a: string, b: string): Pair | undefined {
   return state.pairs.find((pair) => (pair.a === a && pair.b === b) || (pair.a === b && pair.b === a));
+}
+
+/** Names of the registrations that stay when more are logged: who ran it, its nodes, and which time it is. */
+export function registrationKeys(state: State): string[] {
+  const times = new Map<string, number>();
+  return state.registrations.map(({by, target, source}) => {
+    const pair = `${by} ${target} ${source}`;
+    const time = (times.get(pair) ?? 0) + 1;
+    times.set(pair, time);
+    return `${pair} ${time}`;
+  });
 }
 
 // A running robot sends this once a second beyond its store (src/monitor/live_status.cpp).

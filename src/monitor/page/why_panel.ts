@@ -1,5 +1,5 @@
 import {type Actions, dot, el} from './dom';
-import {findPair, metres, type Pair, type Registration, type State} from './model';
+import {findPair, metres, type Pair, type Registration, registrationKeys, type State} from './model';
 
 const kVerdicts = ['accepted', 'ambiguous', 'rejected', 'failed'] as const;
 const kRows = 100;
@@ -12,7 +12,7 @@ export class WhyPanel {
   private verdict: string = 'all';
   private robot: string = 'all';
   private rows = kRows;
-  private selected = -1;
+  private selected?: string; // its key: numbers change as logs of other robots grow
 
   constructor(
     private root: HTMLElement,
@@ -27,7 +27,7 @@ export class WhyPanel {
   }
 
   mark(index: number): void {
-    this.selected = index;
+    this.selected = registrationKeys(this.state!)[index];
     for (const row of this.root.querySelectorAll('.registration'))
       row.setAttribute('aria-current', String(row.getAttribute('data-index') === String(index)));
     this.root.querySelector(`.registration[data-index="${index}"]`)?.scrollIntoView({block: 'nearest'});
@@ -203,6 +203,7 @@ export class WhyPanel {
 
   private list(state: State): HTMLElement {
     const shown = this.filtered(state).filter(([one]) => this.verdict === 'all' || one.verdict === this.verdict);
+    const keys = registrationKeys(state);
     const list = el('ul', {class: 'registrations', 'aria-label': 'Registrations'});
     for (const [one, index] of shown.slice(0, this.rows)) {
       const button = el(
@@ -212,7 +213,7 @@ export class WhyPanel {
           class: 'registration',
           'data-index': String(index),
           'data-verdict': one.verdict,
-          'aria-current': String(index === this.selected),
+          'aria-current': String(keys[index] === this.selected),
         },
         el('span', {class: `verdict ${one.verdict}`}, one.verdict),
         el('span', {class: 'who'}, `${one.source} → ${one.target}`),

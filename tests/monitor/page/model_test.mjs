@@ -1,9 +1,12 @@
 // Words and numbers for people (src/monitor/page/model.ts).
 import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
-import {pair, state} from './states.mjs';
+import {pair, registration, state} from './states.mjs';
 
-const {ago, bytes, colourOf, count, duration, findPair, linkName, metres} = await pageModule(process.argv[2], 'model');
+const {ago, bytes, colourOf, count, duration, findPair, linkName, metres, registrationKeys} = await pageModule(
+  process.argv[2],
+  'model',
+);
 const table = (act, cases) => {
   for (const [value, words] of cases) assert.equal(act(value), words, `${act.name}(${value})`);
 };
@@ -42,3 +45,9 @@ assert.match(colourOf(state(), 'stranger'), /^#/);
 const pairs = state({pairs: [pair('r1', 'r2', true), pair('r1', 'r3', false)]});
 assert.equal(findPair(pairs, 'r3', 'r1'), pairs.pairs[1]);
 assert.equal(findPair(pairs, 'r2', 'r3'), undefined);
+
+// A registration keeps its name when more of other robots come before it; a pair registered again has one more.
+const one = registration('r1#0', 'r2#0', 'rejected'),
+  names = (...registrations) => registrationKeys(state({registrations}));
+assert.equal(names(registration('r1#1', 'r2#0', 'accepted'), one)[1], names(one)[0]);
+assert.equal(new Set(names(one, one, {...one, by: 'r2'})).size, 3);

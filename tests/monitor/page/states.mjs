@@ -19,6 +19,7 @@ export const registration = (target, source, verdict, more = {}) => ({
   source,
   by: target.split('#')[0],
   verdict,
+  alignment: null,
   status: null,
   rmse_m: null,
   inlier_fraction: null,

@@ -69,14 +69,16 @@ assert.deepEqual(shown(), ['r2#0 → r1#0', 'r3#0 → r2#0']);
 [...root.querySelectorAll('.registration')].at(-1).click();
 assert.equal(chosen.at(-1), 3);
 panel.mark(3);
-panel.show(fleet);
+panel.show({...fleet, registrations: [registration('r1#0', 'r2#0', 'rejected'), ...fleet.registrations]});
 const current = [...root.querySelectorAll('.registration')].filter(
   (one) => one.getAttribute('aria-current') === 'true',
 );
 assert.deepEqual(
   current.map((one) => one.getAttribute('data-index')),
-  ['3'],
+  ['4'],
+  'r1 has logged one more',
 );
+panel.show(fleet);
 
 assert.equal(root.querySelector('.answer'), null, 'who chose no pair is shown none');
 
