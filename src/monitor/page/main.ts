@@ -1,5 +1,6 @@
 import {edgeCard, nodeCard} from './cards';
 import {RobotColours} from './colours';
+import {actOnKey} from './keys';
 import {follow} from './live';
 import type {Hit} from './hit';
 import {linkKeys, type Picture, rampEnds, scaleLength} from './legend';
@@ -18,6 +19,7 @@ import {RadioPanel} from './radio';
 import {joinTabs} from './tabs';
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+const kCrossReach = 18; // pixels
 const canvas = byId<HTMLCanvasElement>('canvas');
 
 let state: State | undefined;
@@ -73,7 +75,9 @@ follow({
 
 // Selection.
 
+let selectedNode: string | undefined;
 function select(hit: Hit | undefined, go = false): void {
+  selectedNode = hit && 'node' in hit ? hit.node : undefined;
   map?.select(hit);
   pairView?.end();
   if (!hit || !state) return showCard(null);
@@ -248,30 +252,45 @@ canvas.addEventListener('pointermove', (event) => {
       ? 'pointer'
       : 'grab';
 });
-canvas.addEventListener('keydown', (event) => {
-  if (!map || event.ctrlKey || event.metaKey || event.altKey) return;
-  const keys: Record<string, () => void> = {
-    ArrowLeft: () => map.eye.pan(-1, 0),
-    ArrowRight: () => map.eye.pan(1, 0),
-    ArrowUp: () => map.eye.pan(0, 1),
-    ArrowDown: () => map.eye.pan(0, -1),
-    '+': () => map.eye.zoom(1.25),
-    '=': () => map.eye.zoom(1.25),
-    '-': () => map.eye.zoom(0.8),
-    f: () => map.fit(),
-    p: () => setPlanar(!map.eye.planar),
-    m: toggleMeasure,
-    Escape: () => {
-      measure?.stop();
-      pressed('measure', false);
-      select(undefined);
-    },
-  };
-  const act = keys[event.key];
-  if (!act) return;
-  event.preventDefault();
-  act();
-});
+const acts = {
+  fit: () => map?.fit(),
+  setPlanar,
+  measure: toggleMeasure,
+  pick: pickAtCross,
+  step: stepNode,
+  end() {
+    measure?.stop();
+    pressed('measure', false);
+    select(undefined);
+  },
+};
+canvas.addEventListener('keydown', (event) => map && actOnKey(event, map.eye, acts));
+
+const say = (text: string) => (byId('said').textContent = text);
+
+/** As a click in the middle of the map, where the cross is. */
+function pickAtCross(): void {
+  if (!map || !state) return;
+  const x = canvas.clientWidth / 2,
+    y = canvas.clientHeight / 2;
+  if (!measure?.active) {
+    const hit = map.hitAt(x, y, kCrossReach);
+    select(hit);
+    return void say(hit ? '' : 'Nothing is at the cross.');
+  }
+  say(measure.click(x, y, kCrossReach, state.origin) ? '' : 'No point is at the cross.');
+}
+
+/** To the node after or before the selected one: in time, robot by robot. */
+function stepNode(by: 1 | -1): void {
+  const nodes = (state?.nodes ?? [])
+    .filter(({id}) => map?.place(id))
+    .sort((a, b) => (a.robot === b.robot ? a.t - b.t : a.robot < b.robot ? -1 : 1));
+  if (nodes.length === 0) return;
+  const at = nodes.findIndex(({id}) => id === selectedNode);
+  const next = at < 0 ? (by > 0 ? 0 : nodes.length - 1) : (at + by + nodes.length) % nodes.length;
+  select({node: nodes[next].id}, true);
+}
 
 const redraw = () => {
   fleet.redraw();

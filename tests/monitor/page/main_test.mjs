@@ -10,7 +10,7 @@ const html = readFileSync(join(process.argv[2], 'index.html'), 'utf8');
 await openPage(process.argv[2], html.match(/<body>([^]*)<script/)[1]);
 const {Vector3} = await three(process.argv[2]);
 const byId = (id) => document.getElementById(id);
-const canvas = byId('canvas');
+const canvas = Object.assign(byId('canvas'), {clientWidth: 800, clientHeight: 400});
 let socket;
 globalThis.location = {search: '', host: 'robot:8080'};
 globalThis.matchMedia = () => ({matches: false});
@@ -107,8 +107,30 @@ assert.deepEqual([map.eye.planar, pressed('view-plan'), pressed('view-3d')], [fa
 key('m');
 assert.equal(pressed('measure'), 'true');
 assert.match(card(), /Click two points/);
+const points = [new Vector3(0, 0, 0), new Vector3(3, 4, 0)];
+map.pointAt = (x, y) => (x === canvas.clientWidth / 2 && y === canvas.clientHeight / 2 ? points.shift() : undefined);
+key('Enter');
+key('Enter');
+assert.match(card(), /distance5\.00 m/, 'measured by keys alone');
+key('Enter');
+assert.match(textOf(byId('said')), /No point is at the cross/);
 key('Escape');
 assert.deepEqual([pressed('measure'), card()], ['false', null]);
+
+// Every node is reached by keys, and what is under the cross.
+const visited = ['n', 'n', 'n', 'n', 'b'].map((name) => {
+  key(name);
+  return card().match(/Node (\S+?) ?made/)?.[1] ?? card();
+});
+for (const [k, id] of ['r1#0', 'r1#60', 'r2#0', 'r1#0', 'r2#0'].entries()) assert.match(visited[k], new RegExp(id));
+assert.equal(told('goTo').length, 5);
+map.hit = {node: 'r1#60'};
+key('Enter');
+assert.match(card(), /Node r1#60/);
+map.hit = undefined;
+key('Enter');
+assert.equal(card(), null);
+assert.match(textOf(byId('said')), /Nothing is at the cross/);
 
 // Tools: colours, layers, the budget, time.
 told();
