@@ -1,11 +1,12 @@
 import uPlot from 'uplot';
 import {type Actions, type Child, dot, el} from './dom';
+import {patch} from './patch';
 import {colourOf, duration, metres, type Robot, type State} from './model';
 
 /** Each robot in words, who holds what, and nodes over time. */
 export class FleetPanel {
   private plot?: uPlot;
-  private chart = el('div', {class: 'chart'});
+  private chart = el('div', {class: 'chart', 'data-key': 'chart'});
   private state?: State;
   private root: HTMLElement;
 
@@ -22,8 +23,8 @@ export class FleetPanel {
 
   show(state: State): void {
     this.state = state;
-    const notes = state.notes.map((note) => el('p', {class: 'note'}, note));
-    this.root.replaceChildren(
+    const notes = state.notes.map((note) => el('p', {class: 'note', 'data-key': note}, note));
+    patch(this.root, [
       ...notes,
       el('h2', {}, 'Their maps'),
       ...state.robots.map((robot) => this.card(state, robot)),
@@ -31,7 +32,7 @@ export class FleetPanel {
       this.holdings(state),
       el('h2', {}, 'Nodes over the mission'),
       this.chart,
-    );
+    ]);
     this.draw(state);
   }
 
@@ -78,7 +79,7 @@ export class FleetPanel {
     if (robot.id === state.self) badges.push(el('span', {class: 'badge'}, 'its map is shown'));
     return el(
       'article',
-      {class: 'robot', style: `border-left-color:${colourOf(state, robot.id)}`},
+      {class: 'robot', 'data-key': robot.id, style: `border-left-color:${colourOf(state, robot.id)}`},
       el('h3', {}, robot.id, ...badges),
       facts,
     );

@@ -9,6 +9,7 @@ import type {ColourMode} from './point_material';
 import {type Edge, edgeOfRegistration} from './edges';
 import {Measure} from './measure';
 import {colourOf, count, duration, type State} from './model';
+import {setText} from './patch';
 import {FleetNow} from './fleet_now';
 import {RobotMarks} from './robot_marks';
 import {PairView} from './pair_view';
@@ -48,9 +49,11 @@ function showState(next: State): void {
   next.colours = colours.of(next.robots.map((robot) => robot.id));
   state = next;
   document.title = `${next.title} – fleetmap`;
-  byId('title').textContent = next.title;
-  byId('summary').textContent =
-    `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`;
+  setText(byId('title'), next.title);
+  setText(
+    byId('summary'),
+    `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`,
+  );
   map?.show(next);
   setTime();
   why.show(next);
@@ -62,14 +65,14 @@ follow({
   onLive(live) {
     byId('tab-radio').hidden = false;
     colours.of(live.robots.map((robot) => robot.id)); // also of those that are not heard yet
-    if (!state) byId('summary').textContent = `${live.robots.length} robots · no nodes yet`;
+    if (!state) setText(byId('summary'), `${live.robots.length} robots · no nodes yet`);
     now.show(live, state);
     marks?.showLive(live);
     isLive = true;
     radio.show(live);
   },
   onConnection(connected) {
-    byId('connection').textContent = connected ? '' : 'connection lost, the last state is shown';
+    setText(byId('connection'), connected ? '' : 'connection lost, the last state is shown');
   },
 });
 

@@ -1,4 +1,5 @@
 import {type Actions, dot, el} from './dom';
+import {patch} from './patch';
 import {findPair, metres, type Pair, type Registration, registrationKeys, type State} from './model';
 
 const kVerdicts = ['accepted', 'ambiguous', 'rejected', 'failed'] as const;
@@ -35,17 +36,13 @@ export class WhyPanel {
 
   private render(): void {
     const state = this.state!;
-    const focus = document.activeElement?.id;
-    const scroll = this.root.querySelector('.registrations')?.scrollTop ?? 0;
-    this.root.replaceChildren(
+    patch(this.root, [
       this.headline(state),
       this.matrix(state),
       this.answer(state),
       this.filters(state),
       this.list(state),
-    );
-    this.root.querySelector('.registrations')!.scrollTop = scroll;
-    if (focus) document.getElementById(focus)?.focus({preventScroll: true});
+    ]);
   }
 
   private headline(state: State): HTMLElement {
@@ -76,12 +73,9 @@ export class WhyPanel {
           ...names.slice(0, k + 1).map((a) => el('td', {}, this.cell(state, a, b))),
         ),
       );
-    return el(
-      'table',
-      {class: 'pairs', 'aria-label': 'What joins each pair of robots'},
-      el('thead', {}, head),
-      el('tbody', {}, ...rows),
-    );
+    const name = 'What joins each pair of robots';
+    const table = el('table', {class: 'pairs', 'aria-label': name}, el('thead', {}, head), el('tbody', {}, ...rows));
+    return el('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': name}, table);
   }
 
   private cell(state: State, a: string, b: string): HTMLElement {
@@ -189,8 +183,9 @@ export class WhyPanel {
       ...state.robots.map((robot) => el('option', {value: robot.id}, robot.id)),
     );
     select.value = this.robot;
-    select.onchange = () => {
-      this.robot = select.value;
+    select.onchange = (event) => {
+      this.robot = (event.target as HTMLSelectElement).value;
+      this.rows = kRows;
       this.render();
     };
     return el(
@@ -211,6 +206,7 @@ export class WhyPanel {
         {
           type: 'button',
           class: 'registration',
+          'data-key': keys[index],
           'data-index': String(index),
           'data-verdict': one.verdict,
           'aria-current': String(keys[index] === this.selected),
@@ -220,7 +216,7 @@ export class WhyPanel {
         el('span', {class: 'sentence'}, one.sentence),
       );
       button.onclick = () => this.actions.selectRegistration(index);
-      list.append(el('li', {}, button));
+      list.append(el('li', {'data-key': keys[index]}, button));
     }
     if (shown.length > this.rows) {
       const more = el(
@@ -232,7 +228,7 @@ export class WhyPanel {
         this.rows += kRows;
         this.render();
       };
-      list.append(el('li', {}, more));
+      list.append(el('li', {'data-key': 'more'}, more));
     }
     if (shown.length === 0)
       list.append(

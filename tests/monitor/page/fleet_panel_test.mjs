@@ -36,6 +36,14 @@ root.querySelector('article button').click();
 assert.deepEqual(chosen, ['r1#1']);
 assert.equal(textOf(root.querySelector('.note')), 'a file is missing');
 
+// A newer state leaves what has the focus, and the scroll of the matrix, where they are.
+const kept = () => [root.querySelector('article button'), root.querySelector('.scroll')];
+const before = kept();
+panel.show({...fleet, notes: [], robots: [{...fleet.robots[0], path_m: 20}, ...fleet.robots.slice(1)]});
+assert.deepEqual(kept(), before);
+assert.match(textOf(root.querySelector('article')), /on 20\.0 m of path/);
+panel.show(fleet);
+
 // The matrix of holdings: shares are of the most that anyone holds.
 const cells = [...root.querySelectorAll('.holdings tbody td')].map((one) => [
   textOf(one),

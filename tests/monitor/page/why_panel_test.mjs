@@ -62,7 +62,7 @@ assert.deepEqual(shown(), ['r2#0 → r1#0']);
 root.querySelector('#pair-r1-r2').click();
 const select = root.querySelector('#robot-filter');
 select.value = 'r2';
-select.onchange();
+select.onchange({target: select});
 assert.deepEqual(shown(), ['r2#0 → r1#0', 'r3#0 → r2#0']);
 
 // A choice here is one of all registrations, by its index; the mark follows it, also through a newer state.
@@ -81,6 +81,22 @@ assert.deepEqual(
 panel.show(fleet);
 
 assert.equal(root.querySelector('.answer'), null, 'who chose no pair is shown none');
+
+// The menu, the chips and a registration stay the same elements, so an open menu stays open and focus where it is.
+const kept = () => [
+  select,
+  chip('all'),
+  [...root.querySelectorAll('.registration')].at(-1),
+  root.querySelector('.scroll'),
+];
+const parts = kept();
+panel.show({...fleet, registrations: [registration('r2#1', 'r1#0', 'rejected'), ...fleet.registrations]});
+assert.equal(root.querySelector('#robot-filter'), select);
+assert.deepEqual(kept(), parts);
+parts[2].click();
+assert.equal(chosen.at(-1), 4, 'with its new number');
+panel.show(fleet);
+assert.ok(root.querySelector('.scroll > .pairs'), 'many robots make no page that is wider than a phone');
 
 // Long lists come a hundred at a time.
 panel.show(
