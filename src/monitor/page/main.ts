@@ -71,8 +71,9 @@ follow({
     isLive = true;
     radio.show(live);
   },
-  onConnection(connected) {
-    setText(byId('connection'), connected ? '' : 'connection lost, the last state is shown');
+  onConnection(trouble) {
+    setText(byId('connection'), trouble);
+    if (trouble && !state && !isLive) setText(byId('summary'), 'Nothing came yet.');
   },
 });
 

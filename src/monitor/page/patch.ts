@@ -1,4 +1,5 @@
-// Brings elements up to date where they stand, so that focus, open menus, scrolling and what a screen reader reads stay.
+// Brings elements up to date in place, so that focus, open menus and scrolling stay, and a screen reader does not read
+// again what has not changed.
 
 const isElement = (node: Node): node is HTMLElement => node.nodeType === 1;
 const keyOf = (node: Node) => (isElement(node) ? node.id || node.getAttribute('data-key') || '' : '');
@@ -8,8 +9,8 @@ export function setText(element: Element, text: string): void {
 }
 
 /**
- * Makes `next` the children of an element. A child that is there already stays and is changed where it differs: one with
- * the same id or data-key, else the one in its place if that is of the same kind.
+ * Makes `next` the children of an element. A child that is there already stays and is changed where it differs: one
+ * with the same id or data-key, else the one in its place if that is of the same kind.
  */
 export function patch(parent: Element, next: readonly Node[]): void {
   const there = new Map<string, Node>();

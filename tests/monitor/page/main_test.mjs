@@ -20,7 +20,11 @@ globalThis.WebSocket = class {
   constructor() {
     socket = this;
   }
+  close() {}
 };
+// Tries again at once; the watch for silence never ends.
+const {setTimeout: real} = globalThis;
+globalThis.setTimeout = (act, ms) => (ms === 500 ? act() : ms < 500 && real(act, ms));
 const say = (content) => socket.onmessage({data: JSON.stringify(content)});
 const fire = (target, type, more = {}) =>
   target.dispatchEvent(Object.assign(new window.Event(type, {cancelable: true}), more));
@@ -57,6 +61,7 @@ say({live: live([robotNow('r1'), robotNow('r2')])});
 assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments', 'a status leaves the counts');
 socket.onclose();
 assert.match(textOf(byId('connection')), /lost/);
+assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments', 'the last state is shown');
 say(fleet);
 assert.equal(textOf(byId('connection')), '');
 
@@ -188,3 +193,4 @@ const pointer = () => {
 assert.equal(pointer(), 'grab');
 map.hit = {node: 'r1#0'};
 assert.equal(pointer(), 'pointer');
+globalThis.setTimeout = real;
