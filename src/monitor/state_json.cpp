@@ -61,7 +61,8 @@ json nodes_json(const FleetView& view) {
              {"session", node.session},
              {"t", rounded(to_seconds(node.stamp - begin), 1e3)},
              {"bytes", node.submap_bytes}};
-    if (placed != view.placement.T_enu_node.end()) one["T"] = pose_json(placed->second);
+    if (placed != view.placement.T_enu_node.end() && placed->second.matrix().allFinite())
+      one["T"] = pose_json(placed->second);
     if (view.has_submap[k] && node.submap_bytes > 0) one["submap"] = to_hex(node.submap_hash);
     if (const auto C = view.placement.covariance.find(node.id); C != view.placement.covariance.end())
       one["sigma_m"] = rounded(horizontal_sigma(C->second), 1e4);

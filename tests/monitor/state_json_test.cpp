@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
@@ -76,6 +78,18 @@ TEST(StateJson, the_covariance_of_a_robots_place_is_along_east_and_north) {
       << "the robot looks north: its own x axis is north";
   EXPECT_THAT(covariance(std::numbers::pi / 4.0),
               ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.05, 0.04, 0.05}));
+}
+
+TEST(StateJson, numbers_that_are_none_are_left_out) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 2).robot("r2", 5);
+  fleet.view.placement.T_enu_node[node_id("r1", 0)].translation().x() = std::nan("");
+  fleet.attempt(node_id("r1", 0), node_id("r2", 1), "rejected", "x");
+  fleet.view.attempts[0].overlap = std::numeric_limits<double>::infinity();
+  const auto state = nlohmann::json::parse(state_json(fleet.view));
+  EXPECT_FALSE(state["nodes"][0].contains("T"));
+  EXPECT_TRUE(state["nodes"][1].contains("T"));
+  EXPECT_TRUE(state["registrations"][0]["overlap"].is_null());
 }
 
 TEST(StateJson, names_of_nodes_come_with_their_session_and_text_that_is_no_UTF_8_harms_nothing) {

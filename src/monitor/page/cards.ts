@@ -2,7 +2,7 @@ import type {Vector3} from 'three';
 import {el} from './dom';
 import type {Edge} from './edges';
 import {geoText, toGeo} from './geodesy';
-import {duration, metres, type State} from './model';
+import {duration, isNumber, metres, type State} from './model';
 
 const kVerdicts = {
   accepted: 'Accepted registration, whose alignment is not held here',
@@ -15,13 +15,22 @@ const kVerdicts = {
 export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTMLElement[] | null {
   const node = state.nodes.find((one) => one.id === id);
   if (!node) return null;
-  const rows: [string, string][] = [['made', `${duration(node.t)} after the first node, by ${node.robot}`]];
+  const rows: [string, string][] = [
+    ['made', `${duration(node.stamp_s ?? node.t)} after the first node, by ${node.robot}`],
+  ];
   if (p) {
     const enu = p.toArray().map((v) => v.toFixed(2));
     rows.push(['ENU', `${enu.join(', ')} m`], ['WGS84', geoText(toGeo(state.origin, p.toArray()))]);
   }
   const sigma = node.gps_sigma_m;
-  rows.push(['GPS', sigma === undefined ? 'none' : `known to ${sigma.toFixed(2)} m (1 σ) before alignment`]);
+  rows.push([
+    'GPS',
+    sigma === undefined
+      ? 'none'
+      : !isNumber(sigma)
+        ? 'of unknown accuracy'
+        : `known to ${sigma.toFixed(2)} m (1 σ) before alignment`,
+  ]);
   const missing = node.bytes > 0 ? 'not held here' : 'empty';
   rows.push(['submap', node.submap ? `${Math.round(node.bytes / 1000)} kB, held` : missing]);
   const tied = state.alignments.filter((one) => one.i === id || one.j === id).length;

@@ -1,7 +1,7 @@
 import uPlot from 'uplot';
 import {type Actions, type Child, dot, el} from './dom';
 import {patch} from './patch';
-import {colourOf, duration, metres, type Robot, type State} from './model';
+import {colourOf, duration, isNumber, metres, type Robot, type State} from './model';
 
 /** Each robot in words, who holds what, and nodes over time. */
 export class FleetPanel {
@@ -53,7 +53,7 @@ export class FleetPanel {
       facts.append(
         ' Last at ',
         button,
-        typeof robot.sigma_m === 'number' ? `, known to ${(100 * robot.sigma_m).toFixed(1)} cm (1 σ).` : '.',
+        isNumber(robot.sigma_m) ? `, known to ${(100 * robot.sigma_m).toFixed(1)} cm (1 σ).` : '.',
       );
     }
     if (robot.alignments_used !== undefined)

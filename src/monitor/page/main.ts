@@ -8,7 +8,8 @@ import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {type Edge, edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, duration, type State} from './model';
+import {colourOf, count, duration, type FleetNode, type State} from './model';
+import {cutGaps, gapNote} from './times';
 import {setText} from './patch';
 import {FleetNow} from './fleet_now';
 import {RobotMarks} from './robot_marks';
@@ -47,6 +48,8 @@ const radio = new RadioPanel(byId('radio'));
 const colours = new RobotColours();
 function showState(next: State): void {
   next.colours = colours.of(next.robots.map((robot) => robot.id));
+  const gaps = cutGaps(next);
+  if (gaps > 0) next.notes.push(gapNote(gaps));
   state = next;
   document.title = `${next.title} – fleetmap`;
   setText(byId('title'), next.title);
@@ -185,19 +188,27 @@ const setBudget = () => {
 budget.oninput = setBudget;
 setBudget();
 
+let until: number | undefined; // s, which stays while the mission goes on; undefined: its end
+const endOf = (nodes: FleetNode[]) => nodes.reduce((max, node) => Math.max(max, node.t), 0);
+
 function setTime(): void {
   if (!state) return;
-  const end = state.nodes.reduce((max, node) => Math.max(max, node.t), 0);
-  const share = Number(byId<HTMLInputElement>('time').value) / 1000;
-  byId('time-value').textContent = duration(share * end);
-  byId('time').setAttribute('aria-valuetext', duration(share * end));
+  const end = endOf(state.nodes),
+    t = Math.min(end, until ?? end);
+  byId<HTMLInputElement>('time').value = String(end > 0 && until !== undefined ? Math.round((1000 * t) / end) : 1000);
+  setText(byId('time-value'), duration(t));
+  byId('time').setAttribute('aria-valuetext', duration(t));
   if (map) {
-    map.until = share >= 1 ? Infinity : share * end;
+    map.until = until ?? Infinity;
     map.remark();
     marks?.show(state, map.until);
   }
 }
-byId('time').oninput = setTime;
+byId('time').oninput = () => {
+  const share = Number(byId<HTMLInputElement>('time').value) / 1000;
+  until = share >= 1 || !state ? undefined : share * endOf(state.nodes);
+  setTime();
+};
 
 if (map) map.onPicture = showPicture;
 function showPicture(picture: Picture): void {

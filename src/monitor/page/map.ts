@@ -3,7 +3,7 @@ import {CpuPoints} from './cpu_points';
 import {type Edge, edgesOf} from './edges';
 import {GlPoints} from './gl_points';
 import {type Hit, hitAt} from './hit';
-import {colourOf, type FleetNode, type State} from './model';
+import {colourOf, type FleetNode, isNumber, type State} from './model';
 import {MapCamera} from './map_camera';
 import {kModes, type ColourMode, pointStyle} from './point_material';
 import {tonesOf} from './ramp';
@@ -87,7 +87,7 @@ export class FleetMap {
     this.nodes.clear();
     const wanted = new Set<string>();
     for (const node of state.nodes) {
-      if (!node.T) continue;
+      if (!node.T?.every(isNumber)) continue;
       const T = matrixOf(node.T);
       this.nodes.set(node.id, {node, p: new THREE.Vector3().setFromMatrixPosition(T)});
       if (!node.submap) continue;

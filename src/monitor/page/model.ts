@@ -24,7 +24,8 @@ export interface FleetNode {
   id: string;
   robot: string;
   session: number;
-  t: number;
+  t: number; // s after the first node, without long gaps (times.ts)
+  stamp_s?: number; // the same with them, where there are any
   bytes: number;
   T?: PoseValues;
   gps?: PoseValues; // its own G, which nothing aligned
@@ -98,6 +99,9 @@ export function colourOf(state: State, robot: string): string {
   return state.colours.get(robot) ?? kStranger;
 }
 
+/** JSON has null for what is infinite or no number. */
+export const isNumber = (value: unknown): value is number => Number.isFinite(value);
+
 export function duration(seconds: number): string {
   const whole = Math.round(seconds);
   const two = (n: number) => String(n).padStart(2, '0');
@@ -113,7 +117,8 @@ export function count(n: number): string {
   return n.toLocaleString('en');
 }
 
-export function metres(m: number): string {
+export function metres(m: number | null | undefined): string {
+  if (!isNumber(m)) return 'an unknown length';
   return m < 10 ? `${m.toFixed(2)} m` : m < 1000 ? `${m.toFixed(1)} m` : `${(m / 1000).toFixed(2)} km`;
 }
 

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 import {linksOf} from './links';
 import type {FleetMap} from './map';
-import {colourOf, type FleetNode, type Live, type State} from './model';
+import {colourOf, type FleetNode, isNumber, type Live, type State} from './model';
 import type {Place} from './picking';
 
 const kSvg = 'http://www.w3.org/2000/svg';
@@ -34,7 +34,8 @@ export class RobotMarks {
     this.now = until === Infinity;
     const last = new Map<string, FleetNode>();
     for (const node of state.nodes)
-      if (node.T && node.t <= until && node.t >= (last.get(node.robot)?.t ?? -Infinity)) last.set(node.robot, node);
+      if (node.T?.every(isNumber) && node.t <= until && node.t >= (last.get(node.robot)?.t ?? -Infinity))
+        last.set(node.robot, node);
     this.marks = [...last].map(([robot, node]) => {
       const [x, y, z, ...q] = node.T!;
       const p = new THREE.Vector3(x, y, z);
@@ -43,7 +44,8 @@ export class RobotMarks {
         .setZ(0)
         .normalize();
       const one = state.robots.find(({id}) => id === robot);
-      const covariance = one?.last_node === node.id ? one.covariance_m2 : undefined;
+      const C = one?.last_node === node.id ? one.covariance_m2 : undefined;
+      const covariance = C?.every(isNumber) ? C : undefined;
       return {
         robot,
         colour: colourOf(state, robot),

@@ -1,4 +1,5 @@
 import * as THREE from 'three';
+import {isNumber} from './model';
 import type {PointStyle} from './point_material';
 import {kBlock, PointPool} from './point_pool';
 import {type Part, parsePart, parseParts, Submap} from './submap';
@@ -109,7 +110,7 @@ export class Submaps {
     const values: number[] = [];
     for (const submap of shown) {
       const one = value(submap);
-      if (one !== undefined) values.push(one);
+      if (isNumber(one)) values.push(one);
     }
     if (values.length === 0) return [0, 0];
     values.sort((a, b) => a - b);

@@ -68,3 +68,7 @@ for (const [k, verdict] of verdicts.entries()) {
 fate.registrations[1].alignment = 0;
 const held = content(edgeCard(fate, edgeOfRegistration(fate, 1), 1));
 assert.deepEqual([held.heading, held.sentence], ['Alignment in use: r2#0 → r1#0', 'r2#0 onto r1#0: ambiguous']);
+
+// JSON has null for a sigma that is infinite.
+const endless = state({nodes: [node('r1', 0, [0, 0, 0], {gps_sigma_m: null})]});
+assert.equal(content(nodeCard(endless, 'r1#0', undefined)).rows.GPS, 'of unknown accuracy');

@@ -36,6 +36,11 @@ root.querySelector('article button').click();
 assert.deepEqual(chosen, ['r1#1']);
 assert.equal(textOf(root.querySelector('.note')), 'a file is missing');
 
+// JSON has null for a sigma that is infinite.
+panel.show({...fleet, robots: [{...fleet.robots[0], sigma_m: null}]});
+assert.match(textOf(root.querySelector('article')), /Last at r1#1\./);
+panel.show(fleet);
+
 // A newer state leaves what has the focus, and the scroll of the matrix, where they are.
 const kept = () => [root.querySelector('article button'), root.querySelector('.scroll')];
 const before = kept();

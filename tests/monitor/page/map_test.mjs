@@ -183,6 +183,11 @@ try {
   assert.equal(pictures.at(-1).drawn, 4 * 500);
   globalThis.fetch = fetch;
 
+  // A place that is no number is none.
+  map.show(fleet({nodes: [...fleet().nodes, node('r2', 9, [null, 0, 0])]}));
+  assert.equal(map.place('r2#9'), undefined);
+  map.show(fleet());
+
   // Time hides what came later; layers hide points; a pair is looked at alone.
   map.until = 0;
   map.remark();

@@ -27,6 +27,7 @@ table(metres, [
   [10, '10.0 m'],
   [1234, '1.23 km'],
 ]);
+for (const none of [null, undefined, NaN, Infinity]) assert.equal(metres(none), 'an unknown length');
 table(bytes, [
   [950, '950 B'],
   [1200, '1.2 kB'],
