@@ -68,7 +68,8 @@ export class Submap {
   loaded = 0; // points that are here
   wanted = 0; // points that the budget leaves it
   asked = false;
-  failed = false;
+  failed = false; // the last time that it was asked for
+  failures = 0; // since it came last
   sigma_m: number | undefined; // of its node in ENU, horizontal
   visible = true;
   private blocks: number[] = [];
