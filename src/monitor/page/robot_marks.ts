@@ -5,6 +5,7 @@ import {colourOf, type FleetNode, isNumber, type Live, type State} from './model
 import type {Place} from './picking';
 
 const kSvg = 'http://www.w3.org/2000/svg';
+const kLabel_px = 62; // half of the longest label
 const kCorners = 32; // of an ellipse
 const k95 = 2.4477; // sigmas of two dimensions that hold 95 %
 
@@ -76,7 +77,7 @@ export class RobotMarks {
       const line = {x1: self.x, y1: self.y, x2: other.x, y2: other.y};
       shapes.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
       if (Math.hypot(other.x - self.x, other.y - self.y) > 90)
-        shapes.push(label(text, (self.x + other.x) / 2, (self.y + other.y) / 2 - 5, `link ${quality}`));
+        shapes.push(label(text, this.within((self.x + other.x) / 2), (self.y + other.y) / 2 - 5, 'link'));
     }
     const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.robot));
     for (const mark of this.marks) {
@@ -86,12 +87,18 @@ export class RobotMarks {
     this.overlay.replaceChildren(...shapes);
   }
 
+  /** A place for the middle of a label that the map's sides do not cut. */
+  private within(x: number): number {
+    const width = this.overlay.clientWidth;
+    return width > 2 * kLabel_px ? Math.min(width - kLabel_px, Math.max(kLabel_px, x)) : x;
+  }
+
   private markOf({robot, colour, p, ahead, ellipse}: Mark, {x, y}: Place, silent: boolean): SVGElement[] {
     const shapes: SVGElement[] = [];
     const corners = ellipse.map((corner) => this.map.project(corner));
     if (corners.length > 0 && corners.every((one) => one !== undefined)) {
       const points = corners.map((one) => `${one!.x.toFixed(1)},${one!.y.toFixed(1)}`).join(' ');
-      shapes.push(shape('polygon', {points, class: 'ellipse', style: `stroke:${colour};fill:${colour}`}));
+      shapes.push(shape('polygon', {points, class: 'ellipse', style: `fill:${colour}`}));
     }
     const front = this.map.project(p.clone().lerp(ahead, 0.5));
     const angle = front ? (Math.atan2(front.y - y, front.x - x) * 180) / Math.PI : 0;

@@ -44,6 +44,9 @@ assert.deepEqual(
   all('text.link').map((one) => one.textContent),
   ['heard 1 s ago'],
 );
+overlay.clientWidth = 210;
+marks.draw();
+assert.equal(overlay.querySelector('text.link').getAttribute('x'), '148.0', 'the side of the map does not cut it');
 marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: [{link: 'long_range', seconds_ago: 90}]})]));
 assert.equal(all('line.link.silent').length, 1);
 assert.deepEqual(labels(), ['r1', 'r2 (lost)']);
