@@ -54,6 +54,10 @@ std::optional<std::string_view> foxglove_refusal(const ServerState& state, const
   return refusal(head, token, state.cookie);
 }
 
+constexpr std::string_view kTooMany = "too many pages are open; close one";
+
+bool is_full(const ServerState& state) { return state.counters.viewers >= state.config.max_viewers; }
+
 HttpResponse answer_upgrade(ServerState& state, const HttpRequest& request, const RequestHead& head) {
   const std::string subprotocol(foxglove::accepted_subprotocol(request.subprotocols));
   const std::string_view target = request.target;
@@ -64,8 +68,7 @@ HttpResponse answer_upgrade(ServerState& state, const HttpRequest& request, cons
   if (subprotocol.empty() ? target != "/live" : path != "/live" && path != "/")
     return refused(state, 404,
                    "the page's WebSocket is at /live, Foxglove's at / with subprotocol foxglove.sdk.v1");
-  if (state.counters.viewers >= state.config.max_viewers)
-    return refused(state, 503, "too many pages are open; close one");
+  if (is_full(state)) return refused(state, 503, kTooMany);
   HttpResponse response{.status = 101};
   if (subprotocol.empty()) {
     response.session = std::make_unique<Viewer>(state);
@@ -107,6 +110,10 @@ HttpResponse answer(ServerState& state, const HttpRequest& request) {
             .headers = {{"Location", "/"}, {"Set-Cookie", cookie + "; HttpOnly; SameSite=Lax; Path=/"}}};
   }
   if (const auto why = refusal(head, state.config.token, state.cookie)) return refused(state, 403, *why);
+  // A browser does not show its pages why a WebSocket was refused: they ask again without an upgrade.
+  if (request.method == Method::get && request.target == "/live")
+    return is_full(state) ? refused(state, 503, kTooMany)
+                          : refused(state, 426, "this is the page's WebSocket");
   if (request.method == Method::other) return refused(state, 405, "everything here is read only");
   Reply reply = request.method == Method::post ? reply_to_order(state, head, request.target)
                                                : state.content.reply(request.target);

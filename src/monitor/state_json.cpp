@@ -32,6 +32,16 @@ double horizontal_sigma(const Matrix6d& covariance) {
   return std::sqrt(std::max(0.0, 0.5 * (covariance(0, 0) + covariance(1, 1))));
 }
 
+/// Of a node's place in ENU, horizontal: xx, xy, yy in m^2. `C` is of the right tangent, along the node's
+/// axes.
+json covariance_json(const Pose& T_enu_node, const Matrix6d& C) {
+  const Eigen::Matrix3d R = T_enu_node.linear();
+  const Eigen::Matrix3d P = R * C.topLeftCorner<3, 3>() * R.transpose();
+  json values = json::array();
+  for (const double value : {P(0, 0), P(0, 1), P(1, 1)}) values.push_back(rounded(value, 1e8));
+  return values;
+}
+
 /// The earliest node's stamp: times are told from there.
 Stamp begin_of(const FleetView& view) {
   Stamp begin{};
@@ -67,7 +77,8 @@ json nodes_json(const FleetView& view) {
              {"session", node.session},
              {"t", rounded(to_seconds(node.stamp - begin), 1e3)},
              {"bytes", node.submap_bytes}};
-    if (placed != view.placement.T_enu_node.end()) one["T"] = pose_json(placed->second);
+    if (placed != view.placement.T_enu_node.end() && placed->second.matrix().allFinite())
+      one["T"] = pose_json(placed->second);
     if (const auto component = floating.find(node.frame()); component != floating.end())
       one["floating"] = component->second;
     if (view.has_submap[k] && node.submap_bytes > 0) one["submap"] = to_hex(node.submap_hash);
@@ -128,6 +139,7 @@ json attempts_json(const FleetView& view, const Outcomes& outcomes) {
                         {"source", to_string(attempt.source)},
                         {"by", attempt.by.str()},
                         {"verdict", attempt.verdict},
+                        {"alignment", matched[k] ? json(*matched[k]) : json()},
                         {"status", status ? json(graph::to_string(*status)) : json()},
                         {"rmse_m", optional_json(attempt.rmse_m, 1e5)},
                         {"inlier_fraction", optional_json(attempt.inlier_fraction, 1e5)},
@@ -186,8 +198,11 @@ json robots_json(const FleetView& view) {
       robot["last_s"] = rounded(to_seconds(sum.last - begin), 1e3);
       robot["last_node"] = to_string(sum.last_node->id);
       if (const auto C = view.placement.covariance.find(sum.last_node->id);
-          C != view.placement.covariance.end())
+          C != view.placement.covariance.end()) {
         robot["sigma_m"] = rounded(horizontal_sigma(C->second), 1e4);
+        if (const auto T = view.placement.T_enu_node.find(C->first); T != view.placement.T_enu_node.end())
+          robot["covariance_m2"] = covariance_json(T->second, C->second);
+      }
     }
     if (const auto credit = view.placement.alignment_stats.find(id);
         credit != view.placement.alignment_stats.end()) {

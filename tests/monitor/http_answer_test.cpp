@@ -84,11 +84,19 @@ TEST_F(HttpAnswer, what_is_not_there_and_what_would_change_something_is_refused_
 TEST_F(HttpAnswer, a_web_socket_is_opened_at_its_place_for_so_many) {
   EXPECT_EQ(status(upgrade("/live")), 101u);
   EXPECT_EQ(status(upgrade("/")), 404u);
-  EXPECT_EQ(status(request(Method::get, "/live")), 404u) << "no page is there";
+  EXPECT_EQ(status(request(Method::get, "/live")), 426u) << "no page is there";
   const HttpResponse opened = answer(state_, upgrade("/live"));
   EXPECT_NE(opened.session, nullptr);
   EXPECT_EQ(status(upgrade("/live")), 503u) << "while one is open";
   EXPECT_EQ(state_.counters.refused, 3u);
+}
+
+TEST_F(HttpAnswer, a_page_learns_why_its_web_socket_was_refused) {
+  EXPECT_EQ(status(request(Method::get, "/live")), 426u);
+  state_.counters.viewers = 1;
+  const HttpResponse full = answer(state_, request(Method::get, "/live"));
+  EXPECT_EQ(full.status, 503u);
+  EXPECT_EQ(full.body, "too many pages are open; close one\n");
 }
 
 TEST_F(HttpAnswer, a_web_socket_is_that_of_the_page_or_of_a_client_by_its_subprotocol) {

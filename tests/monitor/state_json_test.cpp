@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "monitor/views.hpp"
 #include "store/items.hpp"
@@ -63,6 +67,39 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   EXPECT_EQ(state["holdings"][0]["submaps"], 1);
 }
 
+TEST(StateJson, the_covariance_of_a_robots_place_is_along_east_and_north) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 1);
+  Matrix6d C = Matrix6d::Zero();
+  C.diagonal() << 0.09, 0.01, 9.0, 1.0, 1.0, 1.0;
+  const NodeId last = node_id("r1", 0);
+  fleet.view.placement.covariance[last] = C;
+  const auto covariance = [&](double yaw) {
+    fleet.view.placement.T_enu_node[last] =
+        make_pose(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix(), {1.0, 2.0, 3.0});
+    return nlohmann::json::parse(state_json(fleet.view))["robots"][0]["covariance_m2"]
+        .get<std::vector<double>>();
+  };
+  EXPECT_THAT(covariance(0.0), ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.09, 0.0, 0.01}));
+  EXPECT_THAT(covariance(std::numbers::pi / 2.0),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.01, 0.0, 0.09}))
+      << "the robot looks north: its own x axis is north";
+  EXPECT_THAT(covariance(std::numbers::pi / 4.0),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.05, 0.04, 0.05}));
+}
+
+TEST(StateJson, numbers_that_are_none_are_left_out) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 2).robot("r2", 5);
+  fleet.view.placement.T_enu_node[node_id("r1", 0)].translation().x() = std::nan("");
+  fleet.attempt(node_id("r1", 0), node_id("r2", 1), "rejected", "x");
+  fleet.view.attempts[0].overlap = std::numeric_limits<double>::infinity();
+  const auto state = nlohmann::json::parse(state_json(fleet.view));
+  EXPECT_FALSE(state["nodes"][0].contains("T"));
+  EXPECT_TRUE(state["nodes"][1].contains("T"));
+  EXPECT_TRUE(state["registrations"][0]["overlap"].is_null());
+}
+
 TEST(StateJson, names_of_nodes_come_with_their_session_and_text_that_is_no_UTF_8_harms_nothing) {
   ViewMaker fleet;
   fleet.robot("r1", 0, 1);
@@ -104,6 +141,9 @@ TEST(StateJson, a_pair_registered_twice_has_an_alignment_each) {
   const auto state = nlohmann::json::parse(state_json(fleet.view));
   EXPECT_EQ(state["registrations"][0]["status"], "against others");
   EXPECT_EQ(state["registrations"][2]["status"], "used");
+  EXPECT_EQ(state["registrations"][0]["alignment"], 0);
+  EXPECT_TRUE(state["registrations"][1]["alignment"].is_null());
+  EXPECT_EQ(state["registrations"][2]["alignment"], 1);
 }
 
 TEST(StateJson, an_empty_fleet_is_a_state_too) {

@@ -2,15 +2,22 @@ import type {Vector3} from 'three';
 import {el} from './dom';
 import type {Edge} from './edges';
 import {geoText, toGeo} from './geodesy';
-import {comparable, duration, kNoDistance, kNotGeoreferenced, metres, type State} from './model';
+import {comparable, duration, isNumber, kNoDistance, kNotGeoreferenced, metres, type State} from './model';
 
-const kKinds = {used: 'Alignment in use', unused: 'Alignment not used', rejected: 'Rejected registration'};
+const kVerdicts = {
+  accepted: 'Accepted registration, whose alignment is not held here',
+  ambiguous: 'Ambiguous registration, whose alignment is not held here',
+  rejected: 'Rejected registration',
+  failed: 'Failed registration',
+};
 
 /** Describes a node, which the map has at `p` (m of ENU); null if there is no such node. */
 export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTMLElement[] | null {
   const node = state.nodes.find((one) => one.id === id);
   if (!node) return null;
-  const rows: [string, string][] = [['made', `${duration(node.t)} after the first node, by ${node.robot}`]];
+  const rows: [string, string][] = [
+    ['made', `${duration(node.stamp_s ?? node.t)} after the first node, by ${node.robot}`],
+  ];
   if (p) {
     const enu = p.toArray().map((v) => v.toFixed(2));
     if (node.floating === undefined)
@@ -18,7 +25,14 @@ export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTML
     else rows.push(['on the map', `${enu.join(', ')} m`], ['on Earth', kNotGeoreferenced]);
   }
   const sigma = node.gps_sigma_m;
-  rows.push(['GPS', sigma === undefined ? 'none' : `known to ${sigma.toFixed(2)} m (1 σ) before alignment`]);
+  rows.push([
+    'GPS',
+    sigma === undefined
+      ? 'none'
+      : !isNumber(sigma)
+        ? 'of unknown accuracy'
+        : `known to ${sigma.toFixed(2)} m (1 σ) before alignment`,
+  ]);
   const missing = node.bytes > 0 ? 'not held here' : 'empty';
   rows.push(['submap', node.submap ? `${Math.round(node.bytes / 1000)} kB, held` : missing]);
   const tied = state.alignments.filter((one) => one.i === id || one.j === id).length;
@@ -30,13 +44,15 @@ export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTML
 export function edgeCard(state: State, edge: Edge, apart: number | undefined): HTMLElement[] {
   const registration = edge.registration === undefined ? undefined : state.registrations[edge.registration];
   const alignment = edge.alignment === undefined ? undefined : state.alignments[edge.alignment];
+  const use = edge.kind === 'used' ? 'Alignment in use' : 'Alignment not used';
+  const title = alignment || !registration ? use : kVerdicts[registration.verdict];
   const rows: [string, string][] = [];
   const [a, b] = [edge.a, edge.b].map((id) => state.nodes.find((one) => one.id === id));
   if (apart !== undefined)
     rows.push(['nodes', comparable(a, b) ? `${metres(apart)} apart as placed` : kNoDistance]);
   if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
   return [
-    el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kKinds[edge.kind]}: ${edge.b} → ${edge.a}`),
+    el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${title}: ${edge.b} → ${edge.a}`),
     el('p', {}, registration?.sentence ?? alignment?.sentence ?? ''),
     table(rows),
   ];

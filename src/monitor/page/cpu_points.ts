@@ -2,7 +2,7 @@ import * as THREE from 'three';
 import {drawStrokes, type Stroke} from './cpu_lines';
 import {kPointSize, type PointStyle} from './point_material';
 import {kBlock, type PointPool} from './point_pool';
-import {rampOf, shaded, turbo} from './ramp';
+import {rampOf, shaded, type Tones, turbo} from './ramp';
 import type {PointPicture, View} from './shading';
 
 const kEmpty = 2; // a depth behind everything
@@ -20,6 +20,7 @@ export class CpuPoints {
   private depths = new Float32Array(0);
   private VP = new THREE.Matrix4();
   private ramps = new Map<number, Uint32Array>();
+  private tones: Tones = [0, 0]; // of these ramps
   private turbo = new Uint32Array(rampOf(turbo).buffer);
 
   constructor(
@@ -62,10 +63,13 @@ export class CpuPoints {
   private ramp(style: Float32Array): Uint32Array {
     if (this.style.mode.value !== 0) return this.turbo;
     const key = (255 * style[12]) | ((255 * style[13]) << 8) | ((255 * style[14]) << 16);
+    const tones: Tones = [this.style.lowTone.value, this.style.highTone.value];
+    if (tones[0] !== this.tones[0] || tones[1] !== this.tones[1]) this.ramps.clear();
+    this.tones = tones;
     let ramp = this.ramps.get(key);
     if (!ramp) {
       const colour = new THREE.Color(style[12], style[13], style[14]);
-      ramp = new Uint32Array(rampOf((h) => shaded(colour, h)).buffer);
+      ramp = new Uint32Array(rampOf((h) => shaded(colour, h, tones)).buffer);
       this.ramps.set(key, ramp);
     }
     return ramp;

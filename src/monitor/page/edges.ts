@@ -1,6 +1,6 @@
-import type {Registration, State} from './model';
+import type {Alignment, State} from './model';
 
-/** A line between two nodes: an alignment, or a registration that was rejected. */
+/** A line between two nodes: an alignment, or a registration that gave none. */
 export interface Edge {
   kind: 'used' | 'unused' | 'rejected';
   a: string;
@@ -9,35 +9,29 @@ export interface Edge {
   alignment?: number; // index in State.alignments
 }
 
-/** Alignments, and the registrations that gave none. */
+const kindOf = (alignment: Alignment) => (alignment.status === 'used' ? 'used' : 'unused');
+
+/** Alignments, each with the registration that it came of, and the registrations that were rejected. */
 export function edgesOf(state: State): Edge[] {
+  const registrations = new Map<number, number>();
+  state.registrations.forEach(({alignment}, k) => alignment !== null && registrations.set(alignment, k));
   const edges: Edge[] = state.alignments.map((alignment, k) => ({
-    kind: alignment.status === 'used' ? 'used' : 'unused',
+    kind: kindOf(alignment),
     a: alignment.i,
     b: alignment.j,
     alignment: k,
-    registration: registrationOf(state, alignment.i, alignment.j, alignment.by),
+    registration: registrations.get(k),
   }));
-  state.registrations.forEach((one, k) => {
-    if (one.verdict === 'rejected' || one.verdict === 'failed')
-      edges.push({kind: 'rejected', a: one.target, b: one.source, registration: k});
+  state.registrations.forEach(({verdict}, k) => {
+    if (verdict === 'rejected' || verdict === 'failed') edges.push(edgeOfRegistration(state, k));
   });
   return edges;
 }
 
-/** The edge of a registration, number `index` of the state's, that the map shows no edge for. */
-export function edgeOfRegistration({verdict, target, source}: Registration, index: number): Edge {
-  return {kind: verdict === 'accepted' ? 'unused' : 'rejected', a: target, b: source, registration: index};
-}
-
-function registrationOf(state: State, target: string, source: string, by: string): number | undefined {
-  const k = state.registrations.findIndex(
-    (one) =>
-      one.target === target &&
-      one.source === source &&
-      one.by === by &&
-      one.verdict !== 'rejected' &&
-      one.verdict !== 'failed',
-  );
-  return k < 0 ? undefined : k;
+/** The edge of registration number `k`, whether the map shows one for it or not. */
+export function edgeOfRegistration(state: State, k: number): Edge {
+  const {alignment, verdict, target, source} = state.registrations[k];
+  const edge = {a: target, b: source, registration: k};
+  if (alignment !== null) return {...edge, kind: kindOf(state.alignments[alignment]), alignment};
+  return {...edge, kind: verdict === 'rejected' || verdict === 'failed' ? 'rejected' : 'unused'};
 }

@@ -1,5 +1,6 @@
 import {ago, bytes, colourOf, linkName, metres, type Live, type RobotNow, type Sensor, type State} from './model';
 import {el} from './dom';
+import {patch, setText} from './patch';
 
 interface Card {
   article: HTMLElement;
@@ -59,7 +60,7 @@ export class FleetNow {
       const card = this.cardOf(robot.id);
       if (state) card.article.style.borderLeftColor = colourOf(state, robot.id);
     }
-    this.sensors.replaceChildren(this.sensorTable(live));
+    patch(this.sensors, [this.sensorTable(live)]);
     this.refresh();
     for (const button of this.pressed) button.disabled = false;
     this.pressed.clear();
@@ -244,10 +245,6 @@ function setOptions(select: HTMLSelectElement, options: [string, string][]): voi
   const selected = select.value;
   select.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   if (options.some(([value]) => value === selected)) select.value = selected;
-}
-
-function setText(element: HTMLElement, text: string): void {
-  if (element.textContent !== text) element.textContent = text;
 }
 
 function clockText(sensor: Sensor): string {

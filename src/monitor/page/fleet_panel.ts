@@ -1,11 +1,12 @@
 import uPlot from 'uplot';
 import {type Actions, type Child, dot, el} from './dom';
-import {colourOf, duration, type Live, metres, placeMark, type Robot, type State} from './model';
+import {patch} from './patch';
+import {colourOf, duration, isNumber, type Live, metres, placeMark, type Robot, type State} from './model';
 
 /** Each robot in words, who holds what, and nodes over time. */
 export class FleetPanel {
   private plot?: uPlot;
-  private chart = el('div', {class: 'chart'});
+  private chart = el('div', {class: 'chart', 'data-key': 'chart'});
   private state?: State;
   private live?: Live;
   private totals = el('tbody');
@@ -24,8 +25,8 @@ export class FleetPanel {
 
   show(state: State): void {
     this.state = state;
-    const notes = state.notes.map((note) => el('p', {class: 'note'}, note));
-    this.root.replaceChildren(
+    const notes = state.notes.map((note) => el('p', {class: 'note', 'data-key': note}, note));
+    patch(this.root, [
       ...notes,
       el('h2', {}, 'Their maps'),
       ...state.robots.map((robot) => this.card(state, robot)),
@@ -33,7 +34,7 @@ export class FleetPanel {
       this.holdings(state),
       el('h2', {}, 'Nodes over the mission'),
       this.chart,
-    );
+    ]);
     this.draw(state);
     if (this.live) this.showNow(this.live);
   }
@@ -87,7 +88,7 @@ export class FleetPanel {
       facts.append(
         ' Last at ',
         button,
-        robot.sigma_m !== undefined ? `, known to ${(100 * robot.sigma_m).toFixed(1)} cm (1 σ).` : '.',
+        isNumber(robot.sigma_m) ? `, known to ${(100 * robot.sigma_m).toFixed(1)} cm (1 σ).` : '.',
       );
     }
     if (robot.alignments_used !== undefined)
@@ -113,7 +114,7 @@ export class FleetPanel {
     if (robot.id === state.self) badges.push(el('span', {class: 'badge'}, 'its map is shown'));
     return el(
       'article',
-      {class: 'robot', style: `border-left-color:${colourOf(state, robot.id)}`},
+      {class: 'robot', 'data-key': robot.id, style: `border-left-color:${colourOf(state, robot.id)}`},
       el('h3', {}, robot.id, ...badges),
       facts,
     );

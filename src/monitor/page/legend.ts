@@ -1,3 +1,4 @@
+import {el} from './dom';
 import {duration, metres} from './model';
 import type {ColourMode} from './point_material';
 
@@ -28,4 +29,10 @@ export function rampEnds({heights, range}: Picture, colour: ColourMode): string[
   if (colour === 'age') return range.map(duration);
   if (colour === 'sigma') return range.map(metres);
   return ['weak', 'strong'];
+}
+
+/** The lines between robots on the map. */
+export function linkKeys(): HTMLElement[] {
+  const key = (kind: string, words: string) => el('span', {}, el('i', {class: `key link-${kind}`}), words);
+  return [key('good', 'heard'), key('poor', 'loses a fifth, or late'), key('silent', 'lost')];
 }

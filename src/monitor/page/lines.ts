@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import type {Stroke} from './cpu_lines';
+import {kEdgeColours} from './colours';
 import type {Edge} from './edges';
 import type {Hit} from './hit';
 import {colourOf, type FleetNode, type State} from './model';
@@ -15,7 +16,6 @@ export interface Marks {
   selected?: Hit;
 }
 
-const kEdgeColours = {used: '#12a150', unused: '#e0912f', rejected: '#d92d3a'};
 const kSelected = '#ffffff';
 
 const rgb = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);

@@ -1,13 +1,18 @@
 import {edgeCard, nodeCard} from './cards';
+import {RobotColours} from './colours';
+import {actOnKey} from './keys';
 import {follow} from './live';
 import type {Hit} from './hit';
-import {type Picture, rampEnds, scaleLength} from './legend';
+import {linkKeys, type Picture, rampEnds, scaleLength} from './legend';
 import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {type Edge, edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, duration, placeMark, type State} from './model';
+import {colourOf, count, duration, type FleetNode, placeMark, type State} from './model';
+import {cutGaps, gapNote} from './times';
+import {setText} from './patch';
 import {FleetNow} from './fleet_now';
+import {RobotMarks} from './robot_marks';
 import {PairView} from './pair_view';
 import {el} from './dom';
 import {FleetPanel} from './fleet_panel';
@@ -16,9 +21,11 @@ import {RadioPanel} from './radio';
 import {joinTabs} from './tabs';
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+const kCrossReach = 18; // pixels
 const canvas = byId<HTMLCanvasElement>('canvas');
 
 let state: State | undefined;
+let isLive = false; // a running robot sends its status
 let map: FleetMap | undefined;
 try {
   map = new FleetMap(canvas);
@@ -28,6 +35,7 @@ try {
     'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
 }
 const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
+const marks = map && new RobotMarks(map, document.getElementById('robots') as unknown as SVGSVGElement);
 const pairView = map && new PairView(map);
 const actions = {selectNode: (id: string) => select({node: id}, true), selectRegistration};
 const why = new WhyPanel(byId('why'), actions);
@@ -37,12 +45,18 @@ const radio = new RadioPanel(byId('radio'));
 
 // The state.
 
+const colours = new RobotColours();
 function showState(next: State): void {
+  next.colours = colours.of(next.robots.map((robot) => robot.id));
+  const gaps = cutGaps(next);
+  if (gaps > 0) next.notes.push(gapNote(gaps));
   state = next;
   document.title = `${next.title} – fleetmap`;
-  byId('title').textContent = next.title;
-  byId('summary').textContent =
-    `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`;
+  setText(byId('title'), next.title);
+  setText(
+    byId('summary'),
+    `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`,
+  );
   map?.show(next);
   setTime();
   why.show(next);
@@ -53,19 +67,25 @@ follow({
   onState: showState,
   onLive(live) {
     byId('tab-radio').hidden = false;
-    if (!state) byId('summary').textContent = `${live.robots.length} robots · no nodes yet`;
+    colours.of(live.robots.map((robot) => robot.id)); // also of those that are not heard yet
+    if (!state) setText(byId('summary'), `${live.robots.length} robots · no nodes yet`);
     now.show(live, state);
     fleet.showNow(live);
+    marks?.showLive(live);
+    isLive = true;
     radio.show(live);
   },
-  onConnection(connected) {
-    byId('connection').textContent = connected ? '' : 'connection lost, the last state is shown';
+  onConnection(trouble) {
+    setText(byId('connection'), trouble);
+    if (trouble && !state && !isLive) setText(byId('summary'), 'Nothing came yet.');
   },
 });
 
 // Selection.
 
+let selectedNode: string | undefined;
 function select(hit: Hit | undefined, go = false): void {
+  selectedNode = hit && 'node' in hit ? hit.node : undefined;
   map?.select(hit);
   pairView?.end();
   if (!hit || !state) return showCard(null);
@@ -89,11 +109,8 @@ function selectEdge(edge: Edge, go: boolean): void {
 }
 
 function selectRegistration(index: number): void {
-  const one = state!.registrations[index];
-  const known = map?.edges.find((edge) => edge.registration === index);
-  const edge: Edge = known ?? edgeOfRegistration(one, index);
   why.mark(index);
-  select({edge}, true);
+  select({edge: edgeOfRegistration(state!, index)}, true);
 }
 
 function showCard(content: HTMLElement[] | null): void {
@@ -153,6 +170,12 @@ for (const layer of ['points', 'paths', 'nodes', 'used', 'unused', 'rejected'] a
   };
 }
 
+byId<HTMLInputElement>('layer-robots').onchange = (event) => {
+  if (!marks) return;
+  marks.shown = (event.target as HTMLInputElement).checked;
+  marks.draw();
+};
+
 // A phone draws less than a laptop; whoever drives the slider decides.
 const budget = byId<HTMLInputElement>('budget');
 const memory = (navigator as {deviceMemory?: number}).deviceMemory ?? 4;
@@ -166,22 +189,32 @@ const setBudget = () => {
 budget.oninput = setBudget;
 setBudget();
 
+let until: number | undefined; // s, which stays while the mission goes on; undefined: its end
+const endOf = (nodes: FleetNode[]) => nodes.reduce((max, node) => Math.max(max, node.t), 0);
+
 function setTime(): void {
   if (!state) return;
-  const end = state.nodes.reduce((max, node) => Math.max(max, node.t), 0);
-  const share = Number(byId<HTMLInputElement>('time').value) / 1000;
-  byId('time-value').textContent = duration(share * end);
-  byId('time').setAttribute('aria-valuetext', duration(share * end));
+  const end = endOf(state.nodes),
+    t = Math.min(end, until ?? end);
+  byId<HTMLInputElement>('time').value = String(end > 0 && until !== undefined ? Math.round((1000 * t) / end) : 1000);
+  setText(byId('time-value'), duration(t));
+  byId('time').setAttribute('aria-valuetext', duration(t));
   if (map) {
-    map.until = share >= 1 ? Infinity : share * end;
+    map.until = until ?? Infinity;
     map.remark();
+    marks?.show(state, map.until);
   }
 }
-byId('time').oninput = setTime;
+byId('time').oninput = () => {
+  const share = Number(byId<HTMLInputElement>('time').value) / 1000;
+  until = share >= 1 || !state ? undefined : share * endOf(state.nodes);
+  setTime();
+};
 
 if (map) map.onPicture = showPicture;
 function showPicture(picture: Picture): void {
   measure?.draw();
+  marks?.draw();
   canvas.dataset.drawn = String(picture.drawn);
   if (picture.moving) return;
   byId('drawn').textContent =
@@ -205,7 +238,7 @@ let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = colour + ends.join() + state.robots.map((robot) => robot.id + placeMark(robot)).join();
+  const key = [colour, isLive, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
@@ -216,9 +249,8 @@ function showLegend(picture: Picture): void {
       placeMark(robot) ? `${robot.id} (${placeMark(robot)})` : robot.id,
     ),
   );
-  if (colour === 'robot') byId('legend').replaceChildren(...robots);
-  else
-    byId('legend').replaceChildren(...robots, el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]));
+  const ramp = el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]);
+  byId('legend').replaceChildren(...robots, ...(isLive ? linkKeys() : []), ...(colour === 'robot' ? [] : [ramp]));
 }
 
 // Pointer and keys.
@@ -241,30 +273,45 @@ canvas.addEventListener('pointermove', (event) => {
       ? 'pointer'
       : 'grab';
 });
-canvas.addEventListener('keydown', (event) => {
-  if (!map || event.ctrlKey || event.metaKey || event.altKey) return;
-  const keys: Record<string, () => void> = {
-    ArrowLeft: () => map.eye.pan(-1, 0),
-    ArrowRight: () => map.eye.pan(1, 0),
-    ArrowUp: () => map.eye.pan(0, 1),
-    ArrowDown: () => map.eye.pan(0, -1),
-    '+': () => map.eye.zoom(1.25),
-    '=': () => map.eye.zoom(1.25),
-    '-': () => map.eye.zoom(0.8),
-    f: () => map.fit(),
-    p: () => setPlanar(!map.eye.planar),
-    m: toggleMeasure,
-    Escape: () => {
-      measure?.stop();
-      pressed('measure', false);
-      select(undefined);
-    },
-  };
-  const act = keys[event.key];
-  if (!act) return;
-  event.preventDefault();
-  act();
-});
+const acts = {
+  fit: () => map?.fit(),
+  setPlanar,
+  measure: toggleMeasure,
+  pick: pickAtCross,
+  step: stepNode,
+  end() {
+    measure?.stop();
+    pressed('measure', false);
+    select(undefined);
+  },
+};
+canvas.addEventListener('keydown', (event) => map && actOnKey(event, map.eye, acts));
+
+const say = (text: string) => (byId('said').textContent = text);
+
+/** As a click in the middle of the map, where the cross is. */
+function pickAtCross(): void {
+  if (!map || !state) return;
+  const x = canvas.clientWidth / 2,
+    y = canvas.clientHeight / 2;
+  if (!measure?.active) {
+    const hit = map.hitAt(x, y, kCrossReach);
+    select(hit);
+    return void say(hit ? '' : 'Nothing is at the cross.');
+  }
+  say(measure.click(x, y, kCrossReach, state.origin) ? '' : 'No point is at the cross.');
+}
+
+/** To the node after or before the selected one: in time, robot by robot. */
+function stepNode(by: 1 | -1): void {
+  const nodes = (state?.nodes ?? [])
+    .filter(({id}) => map?.place(id))
+    .sort((a, b) => (a.robot === b.robot ? a.t - b.t : a.robot < b.robot ? -1 : 1));
+  if (nodes.length === 0) return;
+  const at = nodes.findIndex(({id}) => id === selectedNode);
+  const next = at < 0 ? (by > 0 ? 0 : nodes.length - 1) : (at + by + nodes.length) % nodes.length;
+  select({node: nodes[next].id}, true);
+}
 
 const redraw = () => {
   fleet.redraw();
@@ -272,9 +319,11 @@ const redraw = () => {
 };
 joinTabs([byId('tab-why'), byId('tab-fleet'), byId('tab-radio')], redraw);
 
+const isDark = () => getComputedStyle(document.documentElement).colorScheme === 'dark';
 byId('theme').onclick = () => {
-  const dark = getComputedStyle(document.documentElement).colorScheme === 'dark';
-  document.documentElement.dataset.theme = dark ? 'light' : 'dark';
+  document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
   redraw();
-  map?.draw();
+  map?.setDark(isDark());
 };
+map?.setDark(isDark());
+matchMedia('(prefers-color-scheme: dark)').onchange = () => map?.setDark(isDark());

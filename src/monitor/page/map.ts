@@ -3,9 +3,10 @@ import {CpuPoints} from './cpu_points';
 import {type Edge, edgesOf} from './edges';
 import {GlPoints} from './gl_points';
 import {type Hit, hitAt} from './hit';
-import {colourOf, type FleetNode, type State} from './model';
+import {colourOf, type FleetNode, isNumber, type State} from './model';
 import {MapCamera} from './map_camera';
 import {kModes, type ColourMode, pointStyle} from './point_material';
+import {tonesOf} from './ramp';
 import type {Picture} from './legend';
 import {drawsOnCpu, type Effort, kStill_ms, drawnShare, Pace} from './pace';
 import {type Picked, type Place, placeOf, pointAt} from './picking';
@@ -86,14 +87,13 @@ export class FleetMap {
     this.nodes.clear();
     const wanted = new Set<string>();
     for (const node of state.nodes) {
-      if (!node.T) continue;
+      if (!node.T?.every(isNumber)) continue;
       const T = matrixOf(node.T);
       this.nodes.set(node.id, {node, p: new THREE.Vector3().setFromMatrixPosition(T)});
       if (!node.submap) continue;
       wanted.add(node.submap);
-      const submap =
-        this.submaps.all.get(node.submap) ??
-        this.submaps.add(node.submap, node.robot, node.t, colourOf(state, node.robot));
+      const submap = this.submaps.all.get(node.submap) ?? this.submaps.add(node.submap, node.robot, node.t);
+      submap.colour = colourOf(state, node.robot);
       submap.place(T);
       submap.sigma_m = node.sigma_m;
       submap.floating = node.floating;
@@ -136,6 +136,12 @@ export class FleetMap {
   setColour(mode: ColourMode): void {
     this.mode = mode;
     this.style.mode.value = kModes[mode];
+    this.draw();
+  }
+
+  /** Points are darker on a light map and lighter on a dark one. */
+  setDark(dark: boolean): void {
+    [this.style.lowTone.value, this.style.highTone.value] = tonesOf(dark);
     this.draw();
   }
 

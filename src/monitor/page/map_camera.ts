@@ -133,6 +133,20 @@ export class MapCamera {
     this.moved();
   }
 
+  /** Turns the view around its target, and tilts it, rad; above the plan north stays up. */
+  turn(left: number, up: number): void {
+    if (this.planar) return;
+    const {target, maxPolarAngle} = this.controls.perspective;
+    const away = this.perspective.position.clone().sub(target);
+    const angles = new THREE.Spherical().setFromVector3(new THREE.Vector3(away.x, away.z, -away.y)); // y is up there
+    angles.theta += left;
+    angles.phi = Math.min(maxPolarAngle, Math.max(0.02, angles.phi - up));
+    const turned = new THREE.Vector3().setFromSpherical(angles);
+    this.perspective.position.copy(target).add(new THREE.Vector3(turned.x, -turned.z, turned.y));
+    this.control_.update();
+    this.moved();
+  }
+
   zoom(factor: number): void {
     this.aim(this.target.clone(), this.span() / factor);
   }

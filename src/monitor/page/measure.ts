@@ -20,7 +20,10 @@ export class Measure {
   start(): void {
     this.active = true;
     this.picked = [];
-    this.show([el('h2', {}, 'Measure'), el('p', {class: 'hint'}, 'Click two points of the map.')]);
+    this.show([
+      el('h2', {}, 'Measure'),
+      el('p', {class: 'hint'}, 'Click two points of the map, or bring the cross to them by keys and press Enter.'),
+    ]);
     this.draw();
   }
 
@@ -32,9 +35,10 @@ export class Measure {
     this.draw();
   }
 
-  click(x: number, y: number, reach: number, origin: Geo): void {
+  /** Takes the point at a pixel; false: there is none. */
+  click(x: number, y: number, reach: number, origin: Geo): boolean {
     const at = this.map.pointAt(x, y, reach);
-    if (!at) return;
+    if (!at) return false;
     const one = {p: at.p, floating: at.submap.floating};
     this.picked = this.picked.length === 2 ? [one] : [...this.picked, one];
     const rows = this.picked.flatMap(({p, floating}, k) => {
@@ -64,6 +68,7 @@ export class Measure {
     }
     this.show([el('h2', {}, 'Measure'), el('dl', {}, ...rows)]);
     this.draw();
+    return true;
   }
 
   draw(): void {

@@ -1,4 +1,5 @@
 // The fleet's state as the program sends it (src/monitor/state_json.cpp).
+import {kStranger} from './colours';
 
 export interface Robot {
   id: string;
@@ -9,6 +10,7 @@ export interface Robot {
   last_s?: number;
   last_node?: string;
   sigma_m?: number;
+  covariance_m2?: [number, number, number]; // of the last node's place: xx, xy, yy
   alignments_used?: number;
   alignments_rejected?: number;
   quarantined?: boolean;
@@ -22,7 +24,8 @@ export interface FleetNode {
   id: string;
   robot: string;
   session: number;
-  t: number;
+  t: number; // s after the first node, without long gaps (times.ts)
+  stamp_s?: number; // the same with them, where there are any
   bytes: number;
   T?: PoseValues;
   gps?: PoseValues; // its own G, which nothing aligned
@@ -48,6 +51,7 @@ export interface Registration {
   source: string;
   by: string;
   verdict: 'accepted' | 'ambiguous' | 'rejected' | 'failed';
+  alignment: number | null; // that came of it: index in State.alignments
   status: string | null;
   rmse_m: number | null;
   inlier_fraction: number | null;
@@ -92,25 +96,11 @@ export interface State {
   holdings: Holding[];
   pairs: Pair[];
   notes: string[];
+  colours: ReadonlyMap<string, string>; // of robots; the page adds them (colours.ts)
 }
 
-// Told apart by people with any colour vision, on light and on dark ground.
-const kRobotColours = [
-  '#2f7de1',
-  '#e8743b',
-  '#1fa774',
-  '#d1477a',
-  '#b58900',
-  '#7d5bd6',
-  '#1598a8',
-  '#8c6243',
-  '#5f7488',
-  '#7a8b2a',
-];
-
 export function colourOf(state: State, robot: string): string {
-  const index = state.robots.findIndex((one) => one.id === robot);
-  return kRobotColours[Math.max(0, index) % kRobotColours.length];
+  return state.colours.get(robot) ?? kStranger;
 }
 
 export const kNotGeoreferenced = 'not known: no GPS fix and no alignment ties it to a place on Earth';
@@ -127,6 +117,9 @@ export function comparable(a: {floating?: number} | undefined, b: {floating?: nu
   return a?.floating === b?.floating;
 }
 
+/** JSON has null for what is infinite or no number. */
+export const isNumber = (value: unknown): value is number => Number.isFinite(value);
+
 export function duration(seconds: number): string {
   const whole = Math.round(seconds);
   const two = (n: number) => String(n).padStart(2, '0');
@@ -142,12 +135,24 @@ export function count(n: number): string {
   return n.toLocaleString('en');
 }
 
-export function metres(m: number): string {
+export function metres(m: number | null | undefined): string {
+  if (!isNumber(m)) return 'an unknown length';
   return m < 10 ? `${m.toFixed(2)} m` : m < 1000 ? `${m.toFixed(1)} m` : `${(m / 1000).toFixed(2)} km`;
 }
 
 export function findPair(state: State, a: string, b: string): Pair | undefined {
   return state.pairs.find((pair) => (pair.a === a && pair.b === b) || (pair.a === b && pair.b === a));
+}
+
+/** Names of the registrations that stay when more are logged: who ran it, its nodes, and which time it is. */
+export function registrationKeys(state: State): string[] {
+  const times = new Map<string, number>();
+  return state.registrations.map(({by, target, source}) => {
+    const pair = `${by} ${target} ${source}`;
+    const time = (times.get(pair) ?? 0) + 1;
+    times.set(pair, time);
+    return `${pair} ${time}`;
+  });
 }
 
 // A running robot sends this once a second beyond its store (src/monitor/live_status.cpp).

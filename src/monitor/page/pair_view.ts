@@ -6,7 +6,7 @@ import {el} from './dom';
 import {matrixOf, type Submap} from './submap';
 
 const kTarget = '#2f7de1',
-  kSource = '#e8743b';
+  kSource = '#d05a1b';
 
 /** The two clouds of a registration alone on the map: before it, at each pose that it found, and as placed. */
 export class PairView {
@@ -37,9 +37,11 @@ export class PairView {
     alignment?.poses.forEach((pose, k) =>
       places.push([`pose-${k}`, alignment.poses.length > 1 ? `pose ${k + 1}` : 'as registered', matrixOf(pose)]),
     );
-    const rejected =
-      edge.registration === undefined || alignment ? undefined : state.registrations[edge.registration].pose;
-    if (rejected) places.push(['rejected', 'as rejected', matrixOf(rejected)]);
+    const registration = edge.registration === undefined ? undefined : state.registrations[edge.registration];
+    if (!alignment && registration?.pose) {
+      const rejected = registration.verdict === 'rejected' || registration.verdict === 'failed';
+      places.push(['rejected', rejected ? 'as rejected' : 'as registered', matrixOf(registration.pose)]);
+    }
     const buttons = places.map(([id, label, T]) => {
       const button = el('button', {type: 'button', 'data-compare': id, 'aria-pressed': 'false'}, label);
       button.onclick = () => {

@@ -1,6 +1,7 @@
 import uPlot from 'uplot';
 import {ago, bytes, linkName, type Live, type Radio} from './model';
 import {el} from './dom';
+import {patch, setText} from './patch';
 
 const kSeconds = 300;
 
@@ -34,12 +35,14 @@ export class RadioPanel {
     [now - this.begin, radio.sent, radio.received, radio.share].forEach((value, k) => this.points[k].push(value));
     while (this.points[0].length > kSeconds) for (const values of this.points) values.shift();
     const share = radio.share > 0 ? Math.round((100 * radio.sent) / radio.share) : 0;
-    this.headline.textContent =
+    setText(
+      this.headline,
       `Sends ${bytes(radio.sent)}/s of ${bytes(radio.share)}/s that it may (${share} %); ` +
-      `all robots together may send ${bytes(radio.fleet_budget)}/s. ${queueText(radio)}`;
-    this.access.textContent = accessText(live);
-    this.maps.textContent = mapsText(radio);
-    this.tables.replaceChildren(...this.kinds(radio), ...this.peers(radio), ...this.queues(radio));
+        `all robots together may send ${bytes(radio.fleet_budget)}/s. ${queueText(radio)}`,
+    );
+    setText(this.access, accessText(live));
+    setText(this.maps, mapsText(radio));
+    patch(this.tables, [...this.kinds(radio), ...this.peers(radio), ...this.queues(radio)]);
     if (!this.root.hidden) this.draw();
   }
 

@@ -19,9 +19,16 @@ export function turbo(x: number): [number, number, number] {
   ];
 }
 
-/** The ramp of a robot: a little lighter with height, so that shapes show in one colour. */
-export function shaded(colour: THREE.Color, height: number): [number, number, number] {
-  const mix = (c: number) => 0.72 * c * (1 - height) + (c + 0.42 * (1 - c)) * height;
+/** Lightness of a robot's points at the lower and the upper end: -1 is black, 0 the robot's colour, 1 white. */
+export type Tones = [number, number];
+
+/** Tones that stand out from the map's ground. */
+export const tonesOf = (dark: boolean): Tones => (dark ? [-0.15, 0.42] : [-0.4, 0]);
+
+/** The ramp of a robot: lighter with height, so that shapes show in one colour. */
+export function shaded(colour: THREE.Color, height: number, [low, high]: Tones): [number, number, number] {
+  const toned = (c: number, tone: number) => (tone < 0 ? c * (1 + tone) : c + tone * (1 - c));
+  const mix = (c: number) => toned(c, low) * (1 - height) + toned(c, high) * height;
   return [mix(colour.r), mix(colour.g), mix(colour.b)];
 }
 

@@ -1,4 +1,5 @@
 import * as THREE from 'three';
+import {kStranger} from './colours';
 import type {PoseValues} from './model';
 import {rgbOf} from './point_material';
 import {kBlock, type PointPool} from './point_pool';
@@ -67,7 +68,8 @@ export class Submap {
   loaded = 0; // points that are here
   wanted = 0; // points that the budget leaves it
   asked = false;
-  failed = false;
+  failed = false; // the last time that it was asked for
+  failures = 0; // since it came last
   sigma_m: number | undefined; // of its node in ENU, horizontal
   floating: number | undefined; // of its node
   visible = true;
@@ -85,8 +87,14 @@ export class Submap {
     readonly robot: string,
     readonly t: number,
     private pool: PointPool,
-    private colour: string,
+    private colour_ = kStranger,
   ) {}
+
+  /** Its robot's. */
+  set colour(colour: string) {
+    this.stale ||= colour !== this.colour_;
+    this.colour_ = colour;
+  }
 
   place(T_enu_node: THREE.Matrix4): void {
     this.T.copy(T_enu_node);
@@ -144,7 +152,7 @@ export class Submap {
   dress(): void {
     if (!this.stale) return;
     this.stale = false;
-    const colour = rgbOf(this.tinted ?? this.colour);
+    const colour = rgbOf(this.tinted ?? this.colour_);
     for (const block of this.blocks) this.pool.dress(block, this.matrix, colour, this.share_);
   }
 

@@ -1,4 +1,5 @@
 import * as THREE from 'three';
+import {isNumber} from './model';
 import type {PointStyle} from './point_material';
 import {kBlock, PointPool} from './point_pool';
 import {type Part, parsePart, parseParts, Submap} from './submap';
@@ -10,7 +11,8 @@ const kCoarseAtOnce = 3; // requests
 const kFineAtOnce = 6;
 const kFineStep = 4096; // points
 const kAllocate_ms = 100; // while the view moves
-const kAgain_ms = 2000; // after a request that nobody answered
+const kAgain_ms = 2000; // after a request that nobody answered, or that failed first
+const kMaxAgain_ms = 60_000; // after one that failed again and again
 
 /** All submaps: asks for those that are worth it, and divides the budget of points among them. */
 export class Submaps {
@@ -37,8 +39,8 @@ export class Submaps {
     this.pool = new PointPool(style);
   }
 
-  add(hash: string, robot: string, t: number, colour: string): Submap {
-    const submap = new Submap(hash, robot, t, this.pool, colour);
+  add(hash: string, robot: string, t: number): Submap {
+    const submap = new Submap(hash, robot, t, this.pool);
     this.all.set(hash, submap);
     return submap;
   }
@@ -109,7 +111,7 @@ export class Submaps {
     const values: number[] = [];
     for (const submap of shown) {
       const one = value(submap);
-      if (one !== undefined) values.push(one);
+      if (isNumber(one)) values.push(one);
     }
     if (values.length === 0) return [0, 0];
     values.sort((a, b) => a - b);
@@ -218,7 +220,7 @@ export class Submaps {
       if (!answer.ok) throw new Error(await answer.text());
       take(await answer.arrayBuffer());
     } catch (error) {
-      for (const submap of submaps) submap.failed = true; // the picture goes on without them
+      for (const submap of submaps) this.fail(submap);
       console.warn(`submap ${submaps.map((one) => one.hash).join()}: ${(error as Error).message}`);
     } finally {
       for (const submap of submaps) submap.asked = false;
@@ -227,6 +229,17 @@ export class Submaps {
       this.refresh();
       this.changed();
     }
+  }
+
+  /** The picture goes on without it; it is asked for again later, since a robot may be busy or a token be missing. */
+  private fail(submap: Submap): void {
+    submap.failed = true;
+    const wait = Math.min(kMaxAgain_ms, kAgain_ms * 2 ** submap.failures++);
+    setTimeout(() => {
+      submap.failed = false;
+      this.refresh();
+      this.changed();
+    }, wait);
   }
 
   /** A robot that is out of reach for a while is asked again. */
@@ -245,8 +258,12 @@ export class Submaps {
     const before = submap.loaded;
     submap.add(part);
     this.loaded += submap.loaded - before;
-    if (part.total > 0) return;
-    submap.failed = true;
+    if (part.total > 0) {
+      submap.failures = 0;
+      return;
+    }
+    submap.total = -1;
+    this.fail(submap);
     console.warn(`submap ${submap.hash}: the program cannot read it`);
   }
 }

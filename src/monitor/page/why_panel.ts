@@ -1,5 +1,6 @@
 import {type Actions, dot, el} from './dom';
-import {findPair, metres, type Pair, type Registration, type State} from './model';
+import {patch} from './patch';
+import {findPair, metres, type Pair, type Registration, registrationKeys, type State} from './model';
 
 const kVerdicts = ['accepted', 'ambiguous', 'rejected', 'failed'] as const;
 const kRows = 100;
@@ -14,7 +15,7 @@ export class WhyPanel {
   private robot: string = 'all';
   private recent = false; // those of the last minute alone, the newest first
   private rows = kRows;
-  private selected = -1;
+  private selected?: string; // its key: numbers change as logs of other robots grow
 
   constructor(
     private root: HTMLElement,
@@ -29,7 +30,7 @@ export class WhyPanel {
   }
 
   mark(index: number): void {
-    this.selected = index;
+    this.selected = registrationKeys(this.state!)[index];
     for (const row of this.root.querySelectorAll('.registration'))
       row.setAttribute('aria-current', String(row.getAttribute('data-index') === String(index)));
     this.root.querySelector(`.registration[data-index="${index}"]`)?.scrollIntoView({block: 'nearest'});
@@ -37,17 +38,13 @@ export class WhyPanel {
 
   private render(): void {
     const state = this.state!;
-    const focus = document.activeElement?.id;
-    const scroll = this.root.querySelector('.registrations')?.scrollTop ?? 0;
-    this.root.replaceChildren(
+    patch(this.root, [
       this.headline(state),
       this.matrix(state),
       this.answer(state),
       this.filters(state),
       this.list(state),
-    );
-    this.root.querySelector('.registrations')!.scrollTop = scroll;
-    if (focus) document.getElementById(focus)?.focus({preventScroll: true});
+    ]);
   }
 
   private headline(state: State): HTMLElement {
@@ -78,12 +75,9 @@ export class WhyPanel {
           ...names.slice(0, k + 1).map((a) => el('td', {}, this.cell(state, a, b))),
         ),
       );
-    return el(
-      'table',
-      {class: 'pairs', 'aria-label': 'What joins each pair of robots'},
-      el('thead', {}, head),
-      el('tbody', {}, ...rows),
-    );
+    const name = 'What joins each pair of robots';
+    const table = el('table', {class: 'pairs', 'aria-label': name}, el('thead', {}, head), el('tbody', {}, ...rows));
+    return el('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': name}, table);
   }
 
   private cell(state: State, a: string, b: string): HTMLElement {
@@ -205,8 +199,9 @@ export class WhyPanel {
       ...state.robots.map((robot) => el('option', {value: robot.id}, robot.id)),
     );
     select.value = this.robot;
-    select.onchange = () => {
-      this.robot = select.value;
+    select.onchange = (event) => {
+      this.robot = (event.target as HTMLSelectElement).value;
+      this.rows = kRows;
       this.render();
     };
     return el(
@@ -219,6 +214,7 @@ export class WhyPanel {
 
   private list(state: State): HTMLElement {
     const shown = this.filtered(state).filter(([one]) => this.verdict === 'all' || one.verdict === this.verdict);
+    const keys = registrationKeys(state);
     const list = el('ul', {class: 'registrations', 'aria-label': 'Registrations'});
     for (const [one, index] of shown.slice(0, this.rows)) {
       const button = el(
@@ -226,16 +222,17 @@ export class WhyPanel {
         {
           type: 'button',
           class: 'registration',
+          'data-key': keys[index],
           'data-index': String(index),
           'data-verdict': one.verdict,
-          'aria-current': String(index === this.selected),
+          'aria-current': String(keys[index] === this.selected),
         },
         el('span', {class: `verdict ${one.verdict}`}, one.verdict),
         el('span', {class: 'who'}, `${one.source} → ${one.target}`),
         el('span', {class: 'sentence'}, one.sentence),
       );
       button.onclick = () => this.actions.selectRegistration(index);
-      list.append(el('li', {}, button));
+      list.append(el('li', {'data-key': keys[index]}, button));
     }
     if (shown.length > this.rows) {
       const more = el(
@@ -247,7 +244,7 @@ export class WhyPanel {
         this.rows += kRows;
         this.render();
       };
-      list.append(el('li', {}, more));
+      list.append(el('li', {'data-key': 'more'}, more));
     }
     if (shown.length === 0)
       list.append(

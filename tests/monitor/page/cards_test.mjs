@@ -5,7 +5,7 @@ import {pageModule, three} from './page_module.mjs';
 import {alignment, node, registration, state} from './states.mjs';
 
 await openPage(process.argv[2]);
-const {edgeCard, nodeCard} = await pageModule(process.argv[2], 'cards');
+const {edgeCard, edgeOfRegistration, nodeCard} = await pageModule(process.argv[2], 'cards', 'edges');
 const {Vector3} = await three(process.argv[2]);
 /** Heading, sentence and rows of a card. */
 const content = (card) => {
@@ -65,3 +65,22 @@ assert.equal(other.heading, 'Alignment not used: r1#0 → r1#75');
 assert.equal(other.sentence, 'r1#0 onto r1#75: unused');
 assert.deepEqual(other.rows, {});
 assert.equal(content(edgeCard(shown, {kind: 'rejected', a: 'a', b: 'b'}, 1)).sentence, '');
+
+// Each card agrees with the verdict, whether its alignment is held or not.
+const verdicts = ['accepted', 'ambiguous', 'rejected', 'failed'];
+const fate = state({
+  registrations: verdicts.map((verdict) => registration('r1#0', 'r2#0', verdict)),
+  alignments: [alignment('r1#0', 'r2#0', 'used', {sentence: 'held'})],
+});
+const titles = verdicts.map((_, k) => content(edgeCard(fate, edgeOfRegistration(fate, k), 1)).heading);
+for (const [k, verdict] of verdicts.entries()) {
+  assert.match(titles[k], new RegExp(`^${verdict} registration`, 'i'));
+  assert.equal(/alignment is not held here/.test(titles[k]), k < 2);
+}
+fate.registrations[1].alignment = 0;
+const held = content(edgeCard(fate, edgeOfRegistration(fate, 1), 1));
+assert.deepEqual([held.heading, held.sentence], ['Alignment in use: r2#0 → r1#0', 'r2#0 onto r1#0: ambiguous']);
+
+// JSON has null for a sigma that is infinite.
+const endless = state({nodes: [node('r1', 0, [0, 0, 0], {gps_sigma_m: null})]});
+assert.equal(content(nodeCard(endless, 'r1#0', undefined)).rows.GPS, 'of unknown accuracy');

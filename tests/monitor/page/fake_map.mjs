@@ -26,6 +26,7 @@ export class FleetMap {
   show = note('show');
   remark = () => calls.push(['remark', this.until, {...this.layers}]);
   setColour = note('setColour');
+  setDark = note('setDark');
   showOnly = note('showOnly');
   select = note('select');
   fit = note('fit');

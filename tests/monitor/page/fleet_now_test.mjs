@@ -45,9 +45,11 @@ try {
   assert.match(textOf(card('r2')), /lost.*r2 is lost\. Known last: drives row 7\..*Last heard 61 s ago/);
   assert.equal(fleet.root.querySelector('.unseen').textContent, 'r2 is lost.', 'said once to who cannot see');
   assert.doesNotMatch(textOf(card('r1')), /is lost/);
-  const before = card('r2');
+  const before = card('r2'),
+    sensors = fleet.root.querySelector('.scroll');
   show({heard: [{link: 'short_range', seconds_ago: 0}], problems: ['no GPS'], clock: {sensor: 'gps', behind_s: -0.25}});
   assert.equal(card('r2'), before, 'cards stay, so focus stays');
+  assert.equal(fleet.root.querySelector('.scroll'), sensors);
   assert.match(textOf(card('r2')), /in contact.*no GPS.*The clock of its gps is about 250 ms ahead/i);
   show({});
   assert.match(textOf(card('r2')), /not heard yet/);
@@ -74,10 +76,7 @@ try {
     seen.map((one) => one.getAttribute('aria-label')),
     ['Resume r2 on its way home'],
   );
-  assert.equal(
-    await press(seen[0]),
-    'Ordered: resume r2. It goes on home; another resume, 60 s later, ends that.',
-  );
+  assert.equal(await press(seen[0]), 'Ordered: resume r2. It goes on home; another resume, 60 s later, ends that.');
   assert.equal(asked.at(-1), 'POST /operator/resume?robot=r2');
 
   // A second press before the next status is none.

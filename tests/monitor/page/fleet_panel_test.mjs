@@ -36,6 +36,19 @@ root.querySelector('article button').click();
 assert.deepEqual(chosen, ['r1#1']);
 assert.equal(textOf(root.querySelector('.note')), 'a file is missing');
 
+// JSON has null for a sigma that is infinite.
+panel.show({...fleet, robots: [{...fleet.robots[0], sigma_m: null}]});
+assert.match(textOf(root.querySelector('article')), /Last at r1#1\./);
+panel.show(fleet);
+
+// A newer state leaves what has the focus, and the scroll of the matrix, where they are.
+const kept = () => [root.querySelector('article button'), root.querySelector('.scroll')];
+const before = kept();
+panel.show({...fleet, notes: [], robots: [{...fleet.robots[0], path_m: 20}, ...fleet.robots.slice(1)]});
+assert.deepEqual(kept(), before);
+assert.match(textOf(root.querySelector('article')), /on 20\.0 m of path/);
+panel.show(fleet);
+
 // The matrix of holdings: shares are of the most that anyone holds.
 const cells = [...root.querySelectorAll('.holdings tbody td')].map((one) => [
   textOf(one),
@@ -71,11 +84,6 @@ assert.deepEqual(totals(), [
 assert.equal(root.querySelector('.holdings'), table, 'the table itself stays');
 panel.show(fleet);
 assert.equal(totals().length, 1, 'a newer state keeps them');
-const early = document.createElement('div');
-const opened = new FleetPanel(early, {selectNode() {}}, document.createElement('section'));
-opened.showNow(live([held('r3', 8, 2)]));
-opened.show(fleet);
-assert.match(textOf(early.querySelector('.holdings')), /8 \/ 2 of all robots/, 'the status came before the state');
 
 // Nodes over time are counted per robot at the times of all.
 const plot = FakePlot.shown.at(-1);
@@ -93,3 +101,10 @@ panel.show(fleet);
 assert.ok(plot.destroyed, 'a newer state has one plot');
 panel.show(state({nodes: [], robots: [robot('r1')], pairs: []}));
 assert.match(textOf(root.querySelector('article')), /r1alone/);
+
+// The status came before the state.
+const early = document.createElement('div');
+const opened = new FleetPanel(early, {selectNode() {}}, document.createElement('section'));
+opened.showNow(live([held('r3', 8, 2)]));
+opened.show(fleet);
+assert.match(textOf(early.querySelector('.holdings')), /8 \/ 2 of all robots/);

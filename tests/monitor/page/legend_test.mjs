@@ -1,8 +1,10 @@
 // Scale and ramp beside the map (src/monitor/page/legend.ts).
 import assert from 'node:assert/strict';
+import {openPage, textOf} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
 
-const {rampEnds, scaleLength} = await pageModule(process.argv[2], 'legend');
+await openPage(process.argv[2]);
+const {linkKeys, rampEnds, scaleLength} = await pageModule(process.argv[2], 'legend');
 
 // A round number that takes 44 to 110 pixels, whatever the zoom.
 for (let metresPerPixel = 1e-3; metresPerPixel < 100; metresPerPixel *= 1.07) {
@@ -20,3 +22,5 @@ assert.deepEqual(rampEnds(picture, 'height'), ['-1.3 m', '7.0 m']);
 assert.deepEqual(rampEnds(picture, 'age'), ['0:01', '2:05']);
 assert.deepEqual(rampEnds(picture, 'sigma'), ['0.50 m', '125.0 m']);
 assert.deepEqual(rampEnds(picture, 'intensity'), ['weak', 'strong']);
+
+assert.deepEqual(linkKeys().map(textOf), ['heard', 'loses a fifth, or late', 'lost']);

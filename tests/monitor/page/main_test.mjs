@@ -10,7 +10,7 @@ const html = readFileSync(join(process.argv[2], 'index.html'), 'utf8');
 await openPage(process.argv[2], html.match(/<body>([^]*)<script/)[1]);
 const {Vector3} = await three(process.argv[2]);
 const byId = (id) => document.getElementById(id);
-const canvas = byId('canvas');
+const canvas = Object.assign(byId('canvas'), {clientWidth: 800, clientHeight: 400});
 let socket;
 globalThis.location = {search: '', host: 'robot:8080'};
 globalThis.matchMedia = () => ({matches: false});
@@ -20,7 +20,11 @@ globalThis.WebSocket = class {
   constructor() {
     socket = this;
   }
+  close() {}
 };
+// Tries again at once; the watch for silence never ends.
+const {setTimeout: real} = globalThis;
+globalThis.setTimeout = (act, ms) => (ms === 500 ? act() : ms < 500 && real(act, ms));
 const say = (content) => socket.onmessage({data: JSON.stringify(content)});
 const fire = (target, type, more = {}) =>
   target.dispatchEvent(Object.assign(new window.Event(type, {cancelable: true}), more));
@@ -49,12 +53,15 @@ assert.equal(textOf(byId('summary')), '1 robots · no nodes yet');
 say(fleet);
 assert.equal(textOf(byId('title')), 'trial <3');
 assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments');
-assert.equal(told('show').length, 1);
+const shown = told('show');
+assert.equal(shown.length, 1);
+assert.notEqual(shown[0][1].colours.get('r1'), shown[0][1].colours.get('r2'));
 assert.match(textOf(byId('why')), /r1 and r2: why/);
 say({live: live([robotNow('r1'), robotNow('r2')])});
 assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments', 'a status leaves the counts');
 socket.onclose();
 assert.match(textOf(byId('connection')), /lost/);
+assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments', 'the last state is shown');
 say(fleet);
 assert.equal(textOf(byId('connection')), '');
 
@@ -105,8 +112,33 @@ assert.deepEqual([map.eye.planar, pressed('view-plan'), pressed('view-3d')], [fa
 key('m');
 assert.equal(pressed('measure'), 'true');
 assert.match(card(), /Click two points/);
+const points = [new Vector3(0, 0, 0), new Vector3(3, 4, 0)];
+map.pointAt = (x, y) => {
+  const p = x === canvas.clientWidth / 2 && y === canvas.clientHeight / 2 ? points.shift() : undefined;
+  return p && {p, submap: {}};
+};
+key('Enter');
+key('Enter');
+assert.match(card(), /distance5\.00 m/, 'measured by keys alone');
+key('Enter');
+assert.match(textOf(byId('said')), /No point is at the cross/);
 key('Escape');
 assert.deepEqual([pressed('measure'), card()], ['false', null]);
+
+// Every node is reached by keys, and what is under the cross.
+const visited = ['n', 'n', 'n', 'n', 'b'].map((name) => {
+  key(name);
+  return card().match(/Node (\S+?) ?made/)?.[1] ?? card();
+});
+for (const [k, id] of ['r1#0', 'r1#60', 'r2#0', 'r1#0', 'r2#0'].entries()) assert.match(visited[k], new RegExp(id));
+assert.equal(told('goTo').length, 5);
+map.hit = {node: 'r1#60'};
+key('Enter');
+assert.match(card(), /Node r1#60/);
+map.hit = undefined;
+key('Enter');
+assert.equal(card(), null);
+assert.match(textOf(byId('said')), /Nothing is at the cross/);
 
 // Tools: colours, layers, the budget, time.
 told();
@@ -122,6 +154,13 @@ byId('time').value = '500';
 byId('time').oninput();
 assert.equal(told('remark').at(-1)[1], 30, 'half of the minute');
 assert.match(byId('time').getAttribute('aria-valuetext'), /30/);
+say({...fleet, nodes: [...fleet.nodes, node('r2', 240, [0, 9, 0])]});
+assert.equal(told('remark').at(-1)[1], 30, 'the mission goes on, the time that is shown stays');
+assert.equal(byId('time').value, '125');
+say({...fleet, nodes: [...fleet.nodes, node('r2', 1e9, [0, 9, 0])]});
+assert.match(textOf(byId('fleet')), /11,57\d days without any node are left out/);
+say(fleet);
+told();
 byId('time').value = '1000';
 byId('time').oninput();
 assert.equal(told('remark').at(-1)[1], Infinity, 'all that is there and that comes');
@@ -151,6 +190,10 @@ assert.match(textOf(byId('legend')), /r1.*r2 \(not georeferenced\)/);
 say(fleet);
 picture({});
 assert.doesNotMatch(textOf(byId('legend')), /georeferenced/);
+assert.match(textOf(byId('legend')), /heard.*lost/, 'the robot is running: links are on the map');
+byId('layer-robots').onchange({target: {checked: false}});
+assert.equal(byId('robots').children.length, 0);
+byId('layer-robots').onchange({target: {checked: true}});
 picture({drawn: 300, moving: true, loading: false, planar: true});
 assert.equal(canvas.dataset.drawn, '300');
 assert.match(textOf(byId('drawn')), /200 of/);
@@ -166,3 +209,4 @@ const pointer = () => {
 assert.equal(pointer(), 'grab');
 map.hit = {node: 'r1#0'};
 assert.equal(pointer(), 'pointer');
+globalThis.setTimeout = real;

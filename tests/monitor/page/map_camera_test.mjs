@@ -95,3 +95,23 @@ assert.ok(eye.target.distanceTo(target) < 1e-6 && Math.abs(eye.metresPerPixel() 
 moves = 0;
 eye.setPlanar(false);
 assert.equal(moves, 0, 'nothing has changed');
+
+// Turning by keys: the target and the scale stay, a place in front goes to the side; the view stays above the ground.
+const front = target.clone().add(new Vector3().subVectors(target, eye.camera.position).setZ(0).setLength(5));
+const side = pixel(eye, front)[0];
+eye.turn(0.5, 0);
+assert.ok(eye.target.distanceTo(target) < 1e-6 && Math.abs(eye.metresPerPixel() - scale) < 1e-6);
+assert.ok(near(pixel(eye, target), [400, 200]) && Math.abs(pixel(eye, front)[0] - side) > 10);
+eye.turn(-0.5, 0);
+assert.ok(Math.abs(pixel(eye, front)[0] - side) < 0.5, 'and back');
+const height = eye.camera.position.z;
+eye.turn(0, 0.2);
+assert.ok(eye.camera.position.z > height, 'it looks from higher up');
+eye.turn(0, -9);
+assert.ok(eye.camera.position.z > target.z);
+eye.turn(0, 9);
+assert.ok(eye.camera.position.clone().sub(target).normalize().z > 0.99);
+eye.setPlanar(true);
+moves = 0;
+eye.turn(1, 1);
+assert.equal(moves, 0, 'north stays up');

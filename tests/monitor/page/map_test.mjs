@@ -106,6 +106,30 @@ try {
   map.show(fleet());
   assert.equal(map.submaps.all.get(first.submap).floating, undefined);
   await settle();
+  // Points have their robot's colour, also where it changes; a theme is a picture.
+  const coloursOfBlocks = () => {
+    const found = new Set();
+    for (const {block} of map.submaps.pool.runs)
+      found.add([...map.submaps.pool.styleOf(block).slice(12, 15)].map((v) => Math.round(255 * v)).join());
+    return [...found].sort();
+  };
+  assert.deepEqual(coloursOfBlocks(), ['208,90,27', '47,125,225']);
+  map.show(
+    fleet({
+      colours: new Map([
+        ['r1', '#010203'],
+        ['r2', '#2f7de1'],
+      ]),
+    }),
+  );
+  await settle();
+  assert.deepEqual(coloursOfBlocks(), ['1,2,3', '47,125,225']);
+  map.show(fleet());
+  await settle();
+  map.setDark(true);
+  assert.equal(frames(), 1);
+  map.setDark(false);
+  frames();
 
   // The whole fleet is in view, and a click finds nodes and edges where they are seen.
   const at = (id) => map.project(map.place(id));
@@ -165,6 +189,11 @@ try {
   );
   assert.equal(pictures.at(-1).drawn, 4 * 500);
   globalThis.fetch = fetch;
+
+  // A place that is no number is none.
+  map.show(fleet({nodes: [...fleet().nodes, node('r2', 9, [null, 0, 0])]}));
+  assert.equal(map.place('r2#9'), undefined);
+  map.show(fleet());
 
   // Time hides what came later; layers hide points; a pair is looked at alone.
   map.until = 0;

@@ -1,12 +1,10 @@
 // Words and numbers for people (src/monitor/page/model.ts).
 import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
-import {pair, robot, state} from './states.mjs';
+import {pair, registration, robot, state} from './states.mjs';
 
-const {ago, bytes, colourOf, comparable, count, duration, findPair, linkName, metres, placeMark} = await pageModule(
-  process.argv[2],
-  'model',
-);
+const {ago, bytes, colourOf, comparable, count, duration, findPair, linkName, metres, placeMark, registrationKeys} =
+  await pageModule(process.argv[2], 'model');
 const table = (act, cases) => {
   for (const [value, words] of cases) assert.equal(act(value), words, `${act.name}(${value})`);
 };
@@ -27,6 +25,7 @@ table(metres, [
   [10, '10.0 m'],
   [1234, '1.23 km'],
 ]);
+for (const none of [null, undefined, NaN, Infinity]) assert.equal(metres(none), 'an unknown length');
 table(bytes, [
   [950, '950 B'],
   [1200, '1.2 kB'],
@@ -50,11 +49,15 @@ assert.equal(
 assert.ok(comparable({}, {}) && comparable({floating: 0}, {floating: 0}));
 assert.ok(!comparable({}, {floating: 0}) && !comparable({floating: 1}, {floating: 0}));
 
-// Ten robots have ten colours, which stay with their places.
-const many = state({robots: Array.from({length: 10}, (_, k) => robot(`r${k}`))});
-assert.equal(new Set(many.robots.map((one) => colourOf(many, one.id))).size, 10);
-assert.equal(colourOf(many, 'stranger'), colourOf(many, 'r0'));
+assert.equal(colourOf(state(), 'r2'), '#d05a1b');
+assert.match(colourOf(state(), 'stranger'), /^#/);
 
 const pairs = state({pairs: [pair('r1', 'r2', true), pair('r1', 'r3', false)]});
 assert.equal(findPair(pairs, 'r3', 'r1'), pairs.pairs[1]);
 assert.equal(findPair(pairs, 'r2', 'r3'), undefined);
+
+// A registration keeps its name when more of other robots come before it; a pair registered again has one more.
+const one = registration('r1#0', 'r2#0', 'rejected'),
+  names = (...registrations) => registrationKeys(state({registrations}));
+assert.equal(names(registration('r1#1', 'r2#0', 'accepted'), one)[1], names(one)[0]);
+assert.equal(new Set(names(one, one, {...one, by: 'r2'})).size, 3);

@@ -27,6 +27,11 @@ assert.match(textOf(root.querySelector('.headline')), /\(0 %\).*Nothing waits\./
 assert.match(textOf(root.querySelector('[data-of=maps]')), /none arrive now/);
 assert.equal(textOf(root.querySelector('[data-of=access]')), 'Only members of the fleet may join.');
 
+// A phone's sideways scroll and the focus are on elements that stay.
+const regions = [...root.querySelectorAll('.scroll')];
+show({kinds: [{link: 'long_range', kind: 'status', sent: 10, received: 20}]});
+assert.deepEqual([...root.querySelectorAll('.scroll')], regions);
+
 // Kinds with most bytes first; robots; queues that hold or dropped something.
 show({
   kinds: [

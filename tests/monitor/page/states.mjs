@@ -26,6 +26,7 @@ export const registration = (target, source, verdict, more = {}) => ({
   source,
   by: target.split('#')[0],
   verdict,
+  alignment: null,
   status: null,
   rmse_m: null,
   inlier_fraction: null,
@@ -73,6 +74,10 @@ export const state = (more = {}) => ({
   holdings: [],
   pairs: [pair('r1', 'r2', false)],
   notes: [],
+  colours: new Map([
+    ['r1', '#2f7de1'],
+    ['r2', '#d05a1b'],
+  ]),
   ...more,
 });
 

@@ -50,15 +50,15 @@ const eye = (Camera = OrthographicCamera) => {
   return camera;
 };
 const real = globalThis.fetch;
-const {warn} = console;
+const {warn} = console,
+  {setTimeout: later} = globalThis;
 try {
   // The first points of many submaps come in a few requests, whose submaps are spread over the site.
   const program = new Program(5000);
   const submaps = new Submaps(pointStyle(), () => {});
   submaps.budget = 40_000;
   const hash = (k) => String(k).padStart(32, '0');
-  for (let k = 0; k < 200; ++k)
-    submaps.add(hash(k), 'r1', k, '#ff0000').place(new Matrix4().makeTranslation(k - 100, 0, 0));
+  for (let k = 0; k < 200; ++k) submaps.add(hash(k), 'r1', k).place(new Matrix4().makeTranslation(k - 100, 0, 0));
   const picture = (share = 1, until = Infinity, camera = eye(), planar = true) => {
     submaps.refresh();
     submaps.prepare(camera, planar, until, false, share);
@@ -110,7 +110,7 @@ try {
   // Points that all lack come together. While the view moves, what is nearly there is not asked for.
   const another = new Program(5000),
     few = new Submaps(pointStyle(), () => {});
-  for (let k = 0; k < 100; ++k) few.add(hash(k), 'r1', k, '#ff0000').place(new Matrix4().makeTranslation(k - 50, 0, 0));
+  for (let k = 0; k < 100; ++k) few.add(hash(k), 'r1', k).place(new Matrix4().makeTranslation(k - 50, 0, 0));
   few.budget = 10_000;
   const show = (moving) => {
     few.refresh();
@@ -147,18 +147,37 @@ try {
   console.warn = () => {};
   const broken = new Program(0),
     others = new Submaps(pointStyle(), () => {});
-  others.add(hash(1), 'r1', 0, '#ff0000').place(new Matrix4());
+  others.add(hash(1), 'r1', 0).place(new Matrix4());
   others.prepare(eye(), true, Infinity, false, 1);
   await broken.answerAll();
   assert.ok(others.all.get(hash(1)).failed);
   assert.equal(others.loading, false);
   const refused = new Program(10),
     third = new Submaps(pointStyle(), () => {});
-  third.add(hash(1), 'r1', 0, '#ff0000').place(new Matrix4());
+  third.add(hash(1), 'r1', 0).place(new Matrix4());
   third.prepare(eye(), true, Infinity, false, 1);
-  await refused.answerAll({ok: false, text: async () => 'no'});
-  assert.ok(third.all.get(hash(1)).failed);
+  const waits = [];
+  globalThis.setTimeout = (act, wait) => waits.push({act, wait});
+  const again = () => {
+    waits.at(-1).act();
+    third.prepare(eye(), true, Infinity, false, 1);
+  };
+  for (let k = 0; k < 7; ++k) {
+    await refused.answerAll({ok: false, text: async () => 'no'});
+    assert.ok(third.all.get(hash(1)).failed);
+    third.prepare(eye(), true, Infinity, false, 1);
+    assert.equal(refused.waiting.length, 0, 'not at once');
+    again();
+  }
+  assert.deepEqual(
+    waits.map(({wait}) => wait),
+    [2000, 4000, 8000, 16_000, 32_000, 60_000, 60_000],
+  );
+  await refused.answerAll();
+  assert.equal(third.all.get(hash(1)).loaded, 10, 'one answer of a busy robot does not lose it');
+  assert.equal(third.all.get(hash(1)).failures, 0);
 } finally {
   globalThis.fetch = real;
   console.warn = warn;
+  globalThis.setTimeout = later;
 }

@@ -62,7 +62,7 @@ assert.deepEqual(shown(), ['r2#0 → r1#0']);
 root.querySelector('#pair-r1-r2').click();
 const select = root.querySelector('#robot-filter');
 select.value = 'r2';
-select.onchange();
+select.onchange({target: select});
 assert.deepEqual(shown(), ['r2#0 → r1#0', 'r3#0 → r2#0']);
 
 // Those of the last minute, the newest first: of r2 those that were rejected.
@@ -92,7 +92,7 @@ assert.deepEqual(rows(), ['r1#4', 'r1#3', 'r1#2', 'r1#1']);
 minute.querySelector('#verdict-rejected').click();
 const robots = minute.querySelector('#robot-filter');
 robots.value = 'r2';
-robots.onchange();
+robots.onchange({target: robots});
 assert.deepEqual(rows(), ['r1#4', 'r1#1']);
 assert.equal(minute.querySelector('.registration').getAttribute('data-index'), '4', 'its place among all');
 minute.querySelector('#last-minute').click();
@@ -111,16 +111,34 @@ assert.match(textOf(other.querySelector('.registrations')), /No registrations\.c
 [...root.querySelectorAll('.registration')].at(-1).click();
 assert.equal(chosen.at(-1), 3);
 panel.mark(3);
-panel.show(fleet);
+panel.show({...fleet, registrations: [registration('r1#0', 'r2#0', 'rejected'), ...fleet.registrations]});
 const current = [...root.querySelectorAll('.registration')].filter(
   (one) => one.getAttribute('aria-current') === 'true',
 );
 assert.deepEqual(
   current.map((one) => one.getAttribute('data-index')),
-  ['3'],
+  ['4'],
+  'r1 has logged one more',
 );
+panel.show(fleet);
 
 assert.equal(root.querySelector('.answer'), null, 'who chose no pair is shown none');
+
+// The menu, the chips and a registration stay the same elements, so an open menu stays open and focus where it is.
+const kept = () => [
+  select,
+  chip('all'),
+  [...root.querySelectorAll('.registration')].at(-1),
+  root.querySelector('.scroll'),
+];
+const parts = kept();
+panel.show({...fleet, registrations: [registration('r2#1', 'r1#0', 'rejected'), ...fleet.registrations]});
+assert.equal(root.querySelector('#robot-filter'), select);
+assert.deepEqual(kept(), parts);
+parts[2].click();
+assert.equal(chosen.at(-1), 4, 'with its new number');
+panel.show(fleet);
+assert.ok(root.querySelector('.scroll > .pairs'), 'many robots make no page that is wider than a phone');
 
 // Long lists come a hundred at a time.
 panel.show(

@@ -1,0 +1,144 @@
+import * as THREE from 'three';
+import {linksOf} from './links';
+import type {FleetMap} from './map';
+import {colourOf, type FleetNode, isNumber, type Live, type State} from './model';
+import type {Place} from './picking';
+
+const kSvg = 'http://www.w3.org/2000/svg';
+const kLabel_px = 62; // half of the longest label
+const kCorners = 32; // of an ellipse
+const k95 = 2.4477; // sigmas of two dimensions that hold 95 %
+
+interface Mark {
+  robot: string;
+  colour: string;
+  p: THREE.Vector3;
+  ahead: THREE.Vector3; // a place in front of it
+  ellipse: THREE.Vector3[]; // where it is with 95 %; empty: not known
+}
+
+/** Each robot's last place on the map with its heading and name, and the links of the one that shows the page. */
+export class RobotMarks {
+  shown = true;
+  private marks: Mark[] = [];
+  private live?: Live;
+  private heardAt = 0;
+  private now = true; // the marks are of the present, not of an earlier time of the mission
+
+  constructor(
+    private map: FleetMap,
+    private overlay: SVGSVGElement,
+  ) {}
+
+  /** Each robot at its last node until `until`, s. */
+  show(state: State, until: number): void {
+    this.now = until === Infinity;
+    const last = new Map<string, FleetNode>();
+    for (const node of state.nodes)
+      if (node.T?.every(isNumber) && node.t <= until && node.t >= (last.get(node.robot)?.t ?? -Infinity))
+        last.set(node.robot, node);
+    this.marks = [...last].map(([robot, node]) => {
+      const [x, y, z, ...q] = node.T!;
+      const p = new THREE.Vector3(x, y, z);
+      const ahead = new THREE.Vector3(1, 0, 0)
+        .applyQuaternion(new THREE.Quaternion(...q))
+        .setZ(0)
+        .normalize();
+      const one = state.robots.find(({id}) => id === robot);
+      const C = one?.last_node === node.id ? one.covariance_m2 : undefined;
+      const covariance = C?.every(isNumber) ? C : undefined;
+      return {
+        robot,
+        colour: colourOf(state, robot),
+        p,
+        ahead: ahead.add(p),
+        ellipse: covariance ? ellipseOf(covariance).map(([dx, dy]) => new THREE.Vector3(x + dx, y + dy, z)) : [],
+      };
+    });
+    this.draw();
+  }
+
+  showLive(live: Live): void {
+    this.live = live;
+    this.heardAt = performance.now();
+    this.draw();
+  }
+
+  /** After each picture of the map. */
+  draw(): void {
+    if (!this.shown) return this.overlay.replaceChildren();
+    const places = new Map(this.marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
+    const links = this.now && this.live ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
+    const shapes: SVGElement[] = [];
+    const self = places.get(this.live?.self ?? '');
+    for (const {robot, quality, text} of links) {
+      const other = places.get(robot);
+      if (!self || !other) continue;
+      const line = {x1: self.x, y1: self.y, x2: other.x, y2: other.y};
+      shapes.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
+      if (Math.hypot(other.x - self.x, other.y - self.y) > 90)
+        shapes.push(label(text, this.within((self.x + other.x) / 2), (self.y + other.y) / 2 - 5, 'link'));
+    }
+    const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.robot));
+    for (const mark of this.marks) {
+      const place = places.get(mark.robot);
+      if (place) shapes.push(...this.markOf(mark, place, silent.has(mark.robot)));
+    }
+    this.overlay.replaceChildren(...shapes);
+  }
+
+  /** A place for the middle of a label that the map's sides do not cut. */
+  private within(x: number): number {
+    const width = this.overlay.clientWidth;
+    return width > 2 * kLabel_px ? Math.min(width - kLabel_px, Math.max(kLabel_px, x)) : x;
+  }
+
+  private markOf({robot, colour, p, ahead, ellipse}: Mark, {x, y}: Place, silent: boolean): SVGElement[] {
+    const shapes: SVGElement[] = [];
+    const corners = ellipse.map((corner) => this.map.project(corner));
+    if (corners.length > 0 && corners.every((one) => one !== undefined)) {
+      const points = corners.map((one) => `${one!.x.toFixed(1)},${one!.y.toFixed(1)}`).join(' ');
+      shapes.push(shape('polygon', {points, class: 'ellipse', style: `fill:${colour}`}));
+    }
+    const front = this.map.project(p.clone().lerp(ahead, 0.5));
+    const angle = front ? (Math.atan2(front.y - y, front.x - x) * 180) / Math.PI : 0;
+    const fill = silent ? '#ffffff' : colour,
+      stroke = silent ? colour : '#ffffff';
+    shapes.push(
+      shape('path', {
+        d: 'M 13 0 L -8 8.5 L -4 0 L -8 -8.5 Z',
+        transform: `translate(${x.toFixed(1)} ${y.toFixed(1)}) rotate(${angle.toFixed(1)})`,
+        class: 'robot-mark',
+        'data-robot': robot,
+        style: `fill:${fill};stroke:${stroke}`,
+      }),
+      label(silent ? `${robot} (lost)` : robot, x + 12, y - 10, 'robot-name'),
+    );
+    return shapes;
+  }
+}
+
+/** The contour of 95 % around the mean of a covariance [xx, xy, yy]. */
+export function ellipseOf([xx, xy, yy]: [number, number, number]): [number, number][] {
+  const mean = (xx + yy) / 2,
+    spread = Math.hypot((xx - yy) / 2, xy),
+    angle = 0.5 * Math.atan2(2 * xy, xx - yy);
+  const [a, b] = [mean + spread, mean - spread].map((variance) => k95 * Math.sqrt(Math.max(0, variance)));
+  return Array.from({length: kCorners}, (_, k) => {
+    const turn = (2 * Math.PI * k) / kCorners,
+      along = a * Math.cos(turn),
+      across = b * Math.sin(turn);
+    return [along * Math.cos(angle) - across * Math.sin(angle), along * Math.sin(angle) + across * Math.cos(angle)];
+  });
+}
+
+function label(text: string, x: number, y: number, kind: string): SVGElement {
+  return shape('text', {x: x.toFixed(1), y: y.toFixed(1), class: kind}, text);
+}
+
+function shape(name: string, attributes: Record<string, string | number>, text = ''): SVGElement {
+  const one = document.createElementNS(kSvg, name);
+  for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, String(value));
+  if (text) one.textContent = text;
+  return one;
+}
