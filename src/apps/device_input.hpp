@@ -24,7 +24,7 @@ class DeviceInput {
     std::function<Bytes(Stamp)> request{};
   };
   DeviceInput(agent::DevicePlace place, Handlers handlers);
-  /// Why the device is not heard, with the remedy; empty while it is, or before it is known.
+  /// The reason why the device is not heard, with the remedy; empty while it is heard or nothing is known.
   std::string trouble() const;
 
  private:

@@ -26,7 +26,7 @@ class SampleCheck {
   bool admit(recording::Sample& sample, std::optional<Stamp> recorded);
   /// Compares the other sensors with the odometry's motion.
   void add_motion(const odometry::OdometryUpdate& update);
-  /// Of a check that others do; it is among the warnings, once.
+  /// Adds the finding of a check that runs elsewhere to the warnings, once.
   void add_finding(std::string finding) { health_.add_finding(std::move(finding)); }
   /// Findings about clocks and values since the last call.
   std::vector<std::string> take_warnings();

@@ -49,7 +49,7 @@ agent::PerceptionConfig with_own_fixes(agent::PerceptionConfig config) {
   return config;
 }
 
-/// Why no fix is heard of a GPS that this program reads itself; empty if one is.
+/// Reasons why no fix is heard of a GPS that this program reads itself; empty if one is.
 std::vector<std::string> device_findings(const std::vector<std::unique_ptr<DeviceInput>>& devices,
                                          const agent::DeviceConfig& config, std::size_t fixes) {
   std::vector<std::string> findings;

@@ -17,7 +17,7 @@ struct SentSample {
   Stamp sent;
 };
 
-/// What a robot's drivers send while it swings through a yard from the left to the right: VLP-16 at 10 Hz
+/// Samples that a robot's drivers send while it swings through a yard from the left to the right: VLP-16 at 10 Hz
 /// with 30 % of its returns, 0.8 m above base_link, IMU at 100 Hz and wheels at 20 Hz. With a speed of 0 it
 /// stands.
 inline std::vector<SentSample> samples_of_a_robot(double speed, double seconds, Stamp start) {

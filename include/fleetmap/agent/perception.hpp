@@ -104,7 +104,7 @@ class Perception {
   void on_transforms(const Bytes& cdr);
   void on_scan(const Bytes& cdr);
   void start_next();
-  /// What LOAM and the checks make of a scan, off the callback thread.
+  /// Runs LOAM and the checks on a scan, off the callback thread.
   void work_on(Job& job);
   void check_turns(Job& job, const sensor::Scan& scan);
   void finish(Job& job);

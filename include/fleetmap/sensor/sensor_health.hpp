@@ -27,9 +27,9 @@ class SensorHealth {
   /// base_link in the odometry's frame at a scan, if the scan fitted the map; otherwise empty. Gyro, wheels
   /// and GPS are compared with it.
   void check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base);
-  /// Of a check that others do, e.g. TurnDirection.
+  /// Adds the finding of a check that runs elsewhere (TurnDirection), once.
   void add_finding(std::string finding) { state(std::move(finding)); }
-  /// Why gyro and wheels were not compared with the LiDAR; empty if they were.
+  /// The reason why gyro and wheels were not compared with the LiDAR; empty if they were.
   std::optional<std::string> motion_not_compared() const { return motion_.not_compared(); }
   /// Mount of the IMU, before its first sample.
   void set_imu_rotation(const Eigen::Quaterniond& q_base_imu);
