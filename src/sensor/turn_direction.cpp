@@ -10,7 +10,7 @@ namespace {
 constexpr double kComparedTurn = 0.1, kTurnNeeded = 1.0;  // rad
 constexpr int kScansNeeded = 5;
 constexpr Duration kMaxAge = std::chrono::milliseconds(1500);
-constexpr double kFitsBetter = 0.7;                // misfit against the gyro over the others
+constexpr double kFitsBetter = 0.7;                // misfit against the gyro over that with it
 constexpr float kLowest = -0.4f, kHighest = 3.0f;  // m about the LiDAR: neither ground nor roofs
 constexpr float kNearestThing = 1.0f, kFarthestThing = 60.0f;
 constexpr double kMaxMisfit = 0.3;  // logarithm of ranges: another thing
@@ -75,7 +75,7 @@ void TurnDirection::compare(const Ranges& now, double turned) {
 
 std::optional<std::string> TurnDirection::finding() const {
   // A gyro of another unit, whose turns fit neither way, fits best without a turn.
-  if (!decided_ || against_ > kFitsBetter * std::min(along_, unturned_)) return std::nullopt;
+  if (!decided_ || against_ > kFitsBetter * along_ || against_ > unturned_) return std::nullopt;
   const std::string mirrored =
       "its points are mirrored (left-handed axes, or a device that turns the other way), or it is mounted "
       "upside down and lidar.rotation_rpy_deg does not say so";

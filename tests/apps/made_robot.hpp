@@ -17,9 +17,9 @@ struct SentSample {
   Stamp sent;
 };
 
-/// Samples that a robot's drivers send while it swings through a yard from the left to the right: VLP-16 at 10 Hz
-/// with 30 % of its returns, 0.8 m above base_link, IMU at 100 Hz and wheels at 20 Hz. With a speed of 0 it
-/// stands.
+/// Samples that a robot's drivers send while it swings through a yard from the left to the right: VLP-16 at
+/// 10 Hz with 30 % of its returns, 0.8 m above base_link, IMU at 100 Hz and wheels at 20 Hz. With a speed of
+/// 0 it stands.
 inline std::vector<SentSample> samples_of_a_robot(double speed, double seconds, Stamp start) {
   const double yaw_rate = speed > 0.0 ? 0.8 : 0.0;
   std::vector<testing::DriveLeg> legs{{0.8, speed, yaw_rate}};
