@@ -19,10 +19,8 @@ void add_agent(CLI::App& app, int& exit_code) {
           "with --as: the agent keeps its files in OUT/NAME; without, the file's directory says where")
       ->needs(as)
       ->check(some_path());
-  command
-      ->add_option("--record", options->record,
-                   "write the sensor topics and the robot's own output as a rosbag2 bag into this folder")
-      ->check(some_path());
+  add_record_options(*command, options->record,
+                     "write the sensor topics and the robot's own output as a rosbag2 bag into this folder");
   command
       ->add_option("--exit-after-idle", options->exit_after_idle,
                    "s; end by itself when sensors and exchange have been silent for so long; a minute later "
