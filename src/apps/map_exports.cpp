@@ -16,8 +16,9 @@ namespace fleetmap::apps {
 Result<std::string> export_points(StoredMap& map, const std::filesystem::path& out) {
   const std::array files{out};
   const output::MapPart main = output::map_parts(map.items.nodes, map.placement).main;
-  const auto written = output::write_merged(map.store, main.T_map_node, map.recipe.merge, files,
-                                            output::map_comments(map.store, main, map.recipe.origin));
+  const auto written =
+      output::write_merged(map.store, main.T_map_node, map.recipe.merge, files,
+                           output::map_comments(map.store, main, map.recipe.origin, map.recipe.merge));
   if (!written) return tl::unexpected(written.error());
   name_unreadable(written->outline);
   return out.string() + ": " + std::to_string(written->points) + " points from " +
