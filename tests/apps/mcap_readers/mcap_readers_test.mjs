@@ -101,7 +101,10 @@ function checkContent(last) {
   const imu = last.get('/imu');
   assert.ok(Math.abs(Math.hypot(...Object.values(imu.linear_acceleration)) - 9.81) < 3, 'm/s^2');
   const points = last.get('/points');
-  assert.deepEqual(points.fields.slice(0, 3).map(({name}) => name), ['x', 'y', 'z']);
+  assert.deepEqual(
+    points.fields.slice(0, 3).map(({name}) => name),
+    ['x', 'y', 'z'],
+  );
   assert.equal(points.data.length, points.row_step * points.height);
   assert.ok(last.get('/fix').latitude !== 0);
   assert.equal(last.get('/odometry').pose.covariance.length, 36);
@@ -116,7 +119,7 @@ function readStream(bytes) {
   const reader = new McapStreamReader({decompressHandlers, validateCrcs: true});
   reader.append(bytes);
   let messages = 0;
-  for (let record; (record = reader.nextRecord()); ) messages += record.type === 'Message';
+  for (let record; (record = reader.nextRecord());) messages += record.type === 'Message';
   return {messages, done: reader.done()};
 }
 
@@ -125,8 +128,21 @@ try {
   let first;
   for (const compression of ['zstd', 'lz4', 'none']) {
     const bag = join(folder, compression);
-    run('run', '-c', config, '--agents', '1', '--set', 'max_time=15', '--out', join(folder, `run_${compression}`),
-      '--record', bag, '--record-compression', compression);
+    run(
+      'run',
+      '-c',
+      config,
+      '--agents',
+      '1',
+      '--set',
+      'max_time=15',
+      '--out',
+      join(folder, `run_${compression}`),
+      '--record',
+      bag,
+      '--record-compression',
+      compression,
+    );
     const bytes = readFileSync(join(bag, 'r1/r1_0.mcap'));
     const counts = await readIndexed(bytes, compression === 'none' ? '' : compression);
     const all = [...counts.values()].reduce((sum, count) => sum + count, 0);
@@ -139,8 +155,15 @@ try {
     const cut = readStream(bytes.subarray(0, (bytes.length * 3) >> 2));
     assert.ok(!cut.done && cut.messages > all / 2, `${compression}: ${cut.messages} of ${all}`);
     const metadata = readFileSync(join(bag, 'r1/metadata.yaml'), 'utf8');
-    for (const line of ['version: 5', 'storage_identifier: mcap', 'compression_format: ""', 'compression_mode: ""',
-      `message_count: ${all}`, '- r1_0.mcap', 'serialization_format: cdr'])
+    for (const line of [
+      'version: 5',
+      'storage_identifier: mcap',
+      'compression_format: ""',
+      'compression_mode: ""',
+      `message_count: ${all}`,
+      '- r1_0.mcap',
+      'serialization_format: cdr',
+    ])
       assert.ok(metadata.includes(line), line);
     assert.equal(metadata.match(/durability: 1\\n/g).length, LATCHED.filter((topic) => counts.has(topic)).length);
     console.log(`${compression}: ${all} messages on ${counts.size} topics, ${bytes.length} bytes`);
