@@ -44,7 +44,7 @@ field() {
 }
 field_with_maps() { field --recordings "$scratch/recordings" "$@"; }
 
-"$program" run -c "$here/../../config/fleets/farm_small.yaml" --agents 4 --record "$scratch/recordings" --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
+"$program" run -c "$here/../../config/fleets/farm_small.yaml" --agents 4 --record "$scratch/recordings" --record-format sqlite3 --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
   { tail -n 5 "$scratch/run.log" >&2; exit 2; }
 room=$((2 * cores))
 for scenario in late new_disk kill_all apart kill radio_down multicast lidar_clock map full_disk damage clock_back \

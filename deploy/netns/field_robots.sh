@@ -93,7 +93,7 @@ need_recordings() {
   if [[ -z $recordings ]]; then
     recordings=$scratch/recordings
     echo "makes recordings of a small farm (a minute)" >&2
-    "$program" run -c "$(fleet_file)" --agents "$agents" --record "$recordings" --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
+    "$program" run -c "$(fleet_file)" --agents "$agents" --record "$recordings" --record-format sqlite3 --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
       { tail -n 5 "$scratch/run.log" >&2; exit 2; }
   fi
   [[ -d $recordings/r$agents ]] || { echo "--recordings $recordings: has no r$agents" >&2; exit 2; }

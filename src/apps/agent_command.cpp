@@ -20,10 +20,8 @@ void add_agent(CLI::App& app, int& exit_code) {
           "with --as: writes the agent's files to OUT/NAME; else they go to `directory` of the configuration")
       ->needs(as)
       ->check(some_path());
-  command
-      ->add_option("--record", options->record,
-                   "write the sensor topics and the robot's own output as a rosbag2 bag into this folder")
-      ->check(some_path());
+  add_record_options(*command, options->record,
+                     "write the sensor topics and the robot's own output as a rosbag2 bag into this folder");
   command
       ->add_option("--exit-after-idle", options->exit_after_idle,
                    "s; exits when sensors and exchange were silent for so long; a minute later if no scan "

@@ -91,10 +91,10 @@ void log_keys(const bus::DdsBusConfig& dds) {
 }
 
 /// Null without a folder.
-Result<std::unique_ptr<SensorRecorder>> recorder_into(const std::string& folder,
+Result<std::unique_ptr<SensorRecorder>> recorder_into(const RecordOptions& options,
                                                       const config::RobotConfig& config, bus::Bus& bus) {
-  if (folder.empty()) return std::unique_ptr<SensorRecorder>();
-  return SensorRecorder::create(folder, config.agent.perception.topics, config.ros.publish, bus);
+  if (options.folder.empty()) return std::unique_ptr<SensorRecorder>();
+  return SensorRecorder::create(options, config.agent.perception.topics, config.ros.publish, bus);
 }
 
 /// Null if it is switched off.

@@ -126,8 +126,6 @@ CommandResult<ExitCode> run_fleet(const RunOptions& options, std::ostream& out) 
   }
   if (options.agents) config->keep_first(*options.agents);
   const auto start = std::chrono::steady_clock::now();
-  std::optional<std::filesystem::path> record;
-  if (!options.record.empty()) record = options.record;
   // Rows of a file may be others than the lanes of the world.
   const bool on_own_drawing = config->twin && config->twin->mission.file.empty();
   const int every = config->twin ? config->twin->mission.rows.every : 1;
@@ -135,8 +133,8 @@ CommandResult<ExitCode> run_fleet(const RunOptions& options, std::ostream& out) 
   auto feed = feed_of(*config, options, setup);
   if (!feed) return exit_with(config->twin ? kBadConfiguration : kFailed, feed.error());
   const auto* twin = dynamic_cast<const TwinFeed*>(feed->get());
-  auto fleet =
-      VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record, options.first_session);
+  auto fleet = VirtualFleet::create(std::move(*config), std::move(*feed), options.out, options.record,
+                                    options.first_session);
   if (!fleet) return exit_with(kFailed, fleet.error());
   if (setup) {
     Status written = write_truth_cloud(options.out, *setup->world);

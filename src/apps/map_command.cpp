@@ -76,10 +76,13 @@ void add_map(CLI::App& app, int& exit_code) {
       ->add_option("--out", options->out, "folder for the PNG files")
       ->required()
       ->check(some_path());
-  add("tracks", "writes the trajectories of all robots as placed, in WGS84", write_tracks)
-      ->add_option("--out", options->out, "FILE.gpx or FILE.geojson")
+  CLI::App* tracks = add("tracks", "writes the trajectories of all robots as placed, in WGS84", write_tracks);
+  tracks->add_option("--out", options->out, "FILE.gpx or FILE.geojson")
       ->required()
       ->check(file_ending({".gpx", ".geojson"}));
+  tracks->add_option(
+      "--geoid", options->las.geoid,
+      "heights of GPX above this geoid of GeographicLib (egm2008-5); else above the ellipsoid");
   add("graph", "writes nodes, odometry and alignments in use for g2o", write_graph)
       ->add_option("--out", options->out, "FILE.g2o")
       ->required()

@@ -1,6 +1,8 @@
 #include "map_exports.hpp"
 
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/output/graph_file.hpp"
@@ -16,8 +18,9 @@ namespace fleetmap::apps {
 Result<std::string> export_points(StoredMap& map, const std::filesystem::path& out) {
   const std::array files{out};
   const output::MapPart main = output::map_parts(map.items.nodes, map.placement).main;
-  const auto written = output::write_merged(map.store, main.T_map_node, map.recipe.merge, files,
-                                            output::map_comments(map.store, main, map.recipe.origin));
+  const auto written =
+      output::write_merged(map.store, main.T_map_node, map.recipe.merge, files,
+                           output::map_comments(map.store, main, map.recipe.origin, map.recipe.merge));
   if (!written) return tl::unexpected(written.error());
   name_unreadable(written->outline);
   return out.string() + ": " + std::to_string(written->points) + " points from " +
@@ -25,16 +28,25 @@ Result<std::string> export_points(StoredMap& map, const std::filesystem::path& o
 }
 
 Result<std::string> export_tracks(const StoredMap& map, const std::string& store,
-                                  const std::filesystem::path& out) {
+                                  const std::filesystem::path& out,
+                                  const std::optional<std::string>& geoid_name) {
   const std::vector<graph::Node>& nodes = map.items.nodes;
   const auto main = output::map_parts(nodes, map.placement).main;
   if (!main.georeferenced)
     return failure(store +
                    ": no node of its map has GPS, so that nobody knows where on Earth its tracks are");
-  const std::string text = out.extension() == ".gpx"
-                               ? output::to_gpx(nodes, main.T_map_node, map.recipe.origin)
-                               : output::to_geojson(nodes, main.T_map_node, map.recipe.origin);
-  if (const Status written = write_whole_file(out, text); !written) return tl::unexpected(written.error());
+  std::optional<Geoid> geoid;
+  if (geoid_name) {
+    auto loaded = Geoid::load(*geoid_name);
+    if (!loaded) return tl::unexpected(loaded.error());
+    geoid = std::move(*loaded);
+  }
+  const Result<std::string> text =
+      out.extension() == ".gpx"
+          ? output::to_gpx(nodes, main.T_map_node, map.recipe.origin, geoid)
+          : Result<std::string>(output::to_geojson(nodes, main.T_map_node, map.recipe.origin));
+  if (!text) return text;
+  if (const Status written = write_whole_file(out, *text); !written) return tl::unexpected(written.error());
   return out.string() + ": " + std::to_string(main.T_map_node.size()) + " nodes";
 }
 

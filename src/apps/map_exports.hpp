@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ namespace fleetmap::apps {
 /// The main part of the map in ENU, PLY or PCD by the file's name. Names submaps that cannot be read.
 Result<std::string> export_points(StoredMap& map, const std::filesystem::path& out);
 
-/// The nodes of all robots in WGS84, GPX or else GeoJSON by the file's name. Fails for a map without GPS;
-/// `store` is its file, as the error names it.
+/// The nodes of all robots in WGS84, GPX or else GeoJSON by the file's name; heights of GPX are above the
+/// geoid if one is named. Fails for a map without GPS; `store` is its file, as the error names it.
 Result<std::string> export_tracks(const StoredMap& map, const std::string& store,
-                                  const std::filesystem::path& out);
+                                  const std::filesystem::path& out,
+                                  const std::optional<std::string>& geoid_name = std::nullopt);
 
 /// The graph as g2o, and the names of its vertices in `out`.csv.
 Result<std::string> export_graph(const StoredMap& map, const std::filesystem::path& out);

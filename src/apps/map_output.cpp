@@ -70,9 +70,12 @@ CommandResult<ExitCode> write_map(const MapOptions& options, std::ostream& out) 
 }
 
 CommandResult<ExitCode> write_tracks(const MapOptions& options, std::ostream& out) {
+  const std::optional<std::string>& geoid = options.las.geoid;
+  if (geoid && !options.out.ends_with(".gpx"))
+    return exit_with(kUsage, {"--geoid is of GPX; heights of GeoJSON are above the ellipsoid (RFC 7946)"});
   const auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
-  return print(export_tracks(*map, options.store, options.out), out);
+  return print(export_tracks(*map, options.store, options.out, geoid), out);
 }
 
 CommandResult<ExitCode> write_graph(const MapOptions& options, std::ostream& out) {

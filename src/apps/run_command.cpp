@@ -19,11 +19,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--out", options->out, "folder for maps, trajectories and the report")
       ->required()
       ->check(some_path());
-  command
-      ->add_option(
-          "--record", options->record,
-          "also write each robot's sensor samples, and what it publishes for ROS 2, as a bag into DIR/NAME")
-      ->check(some_path());
+  add_record_options(
+      *command, options->record,
+      "also write each robot's sensor samples, and what it publishes for ROS 2, as a bag into DIR/NAME");
   command->add_option("--agents", options->agents, "only the first N agents of the file")
       ->check(whole_number(1));
   command

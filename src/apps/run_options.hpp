@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "monitor_access.hpp"
+#include "record_options.hpp"
 
 namespace fleetmap::apps {
 
@@ -17,7 +18,7 @@ struct RunOptions {
   std::string config;                   ///< FLEET.yaml, or
   std::vector<std::string> recordings;  ///< NAME=PATH of each robot
   std::string out;
-  std::string record;                 ///< folder of the bags to write; empty: none
+  RecordOptions record;               ///< of a bag for each robot
   std::optional<std::size_t> agents;  ///< the first so many of the file
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::uint16_t first_session = 0;

@@ -7,7 +7,7 @@
 
 #include "fleetmap/agent/perception_config.hpp"
 #include "fleetmap/odometry/loam.hpp"
-#include "fleetmap/odometry/way_check.hpp"
+#include "fleetmap/odometry/trajectory_check.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/sensor/turn_direction.hpp"
 #include "sweep_inputs.hpp"

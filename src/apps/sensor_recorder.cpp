@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,11 @@ std::filesystem::path free_folder(const std::filesystem::path& directory) {
 
 }  // namespace
 
+recording::Durability durability_of(const bus::Topic& topic) {
+  return topic.profile == "latched" ? recording::Durability::kTransientLocal
+                                    : recording::Durability::kVolatile;
+}
+
 SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bool outputs,
                                bus::Bus& bus)
     : writer_(std::move(writer)) {
@@ -33,17 +39,17 @@ SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorT
   }
   for (const bus::Topic& topic : recorded) {
     subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
-      const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr);
+      const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr, durability_of(topic));
       if (!written && !std::exchange(failed_, true))
         spdlog::error("recording stopped: {}", written.error().message);
     }));
   }
 }
 
-Result<std::unique_ptr<SensorRecorder>> SensorRecorder::create(const std::filesystem::path& directory,
+Result<std::unique_ptr<SensorRecorder>> SensorRecorder::create(const RecordOptions& options,
                                                                const agent::SensorTopics& topics,
                                                                bool outputs, bus::Bus& bus) {
-  auto writer = recording::BagWriter::create(free_folder(directory));
+  auto writer = recording::BagWriter::create(free_folder(options.folder), options.format);
   if (!writer) return tl::unexpected(writer.error());
   return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), topics, outputs, bus));
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -8,15 +7,19 @@
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
+#include "record_options.hpp"
 
 namespace fleetmap::apps {
+
+/// How the topic's publisher here offers it.
+recording::Durability durability_of(const bus::Topic& topic);
 
 /// Writes what arrives on the sensor topics, and what the robot publishes for ROS 2, into a bag.
 class SensorRecorder {
  public:
-  /// `outputs`: the robot publishes them. In `directory`, or with a number behind it if it holds a bag of an
+  /// `outputs`: the robot publishes them. In its folder, or with a number behind it if it holds a bag of an
   /// earlier start.
-  static Result<std::unique_ptr<SensorRecorder>> create(const std::filesystem::path& directory,
+  static Result<std::unique_ptr<SensorRecorder>> create(const RecordOptions& options,
                                                         const agent::SensorTopics& topics, bool outputs,
                                                         bus::Bus& bus);
   Status close();

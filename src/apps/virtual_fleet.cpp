@@ -15,6 +15,7 @@
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "sample_player.hpp"
+#include "sensor_recorder.hpp"
 #include "twin_truth.hpp"
 
 namespace fleetmap::apps {
@@ -28,7 +29,7 @@ constexpr Duration kReportEvery = std::chrono::seconds(30);
 Result<std::unique_ptr<VirtualFleet>> VirtualFleet::create(config::FleetConfig config,
                                                            std::unique_ptr<FleetFeed> feed,
                                                            const std::filesystem::path& out,
-                                                           const std::optional<std::filesystem::path>& record,
+                                                           const RecordOptions& record,
                                                            std::uint16_t first_session) {
   std::unique_ptr<VirtualFleet> fleet(new VirtualFleet(std::move(config), std::move(feed)));
   if (const Status added = fleet->add_agents(out, record, first_session); !added)
@@ -36,8 +37,7 @@ Result<std::unique_ptr<VirtualFleet>> VirtualFleet::create(config::FleetConfig c
   return fleet;
 }
 
-Status VirtualFleet::add_agents(const std::filesystem::path& out,
-                                const std::optional<std::filesystem::path>& record,
+Status VirtualFleet::add_agents(const std::filesystem::path& out, const RecordOptions& record,
                                 std::uint16_t first_session) {
   config_.network.start = feed_->start();
   auto network = bus::LocalNetwork::create(config_.network);
@@ -58,8 +58,9 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
     }
     Member& member = members_.emplace_back();
     member.id = config.id;
-    if (record) {
-      auto bag = recording::BagWriter::create(*record / config.id.str());
+    if (!record.folder.empty()) {
+      auto bag =
+          recording::BagWriter::create(std::filesystem::path(record.folder) / config.id.str(), record.format);
       if (!bag) return tl::unexpected(bag.error());
       member.bag.emplace(std::move(*bag));
     }
@@ -95,7 +96,8 @@ void VirtualFleet::deliver(std::size_t member, const recording::Sample& sample, 
 void VirtualFleet::record(std::size_t member, const bus::Topic& topic, const Bytes& cdr) {
   Member& self = members_[member];
   if (!self.bag) return;
-  const Status written = self.bag->write(topic.name, topic.type, network_->now() - self.bag_delay, cdr);
+  const Status written =
+      self.bag->write(topic.name, topic.type, network_->now() - self.bag_delay, cdr, durability_of(topic));
   if (!written) error_ = written.error().message;
 }
 

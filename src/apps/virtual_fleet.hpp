@@ -15,6 +15,7 @@
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "output_recording.hpp"
+#include "record_options.hpp"
 #include "virtual_page.hpp"
 
 namespace fleetmap::apps {
@@ -62,12 +63,12 @@ struct FleetOutcome {
 class VirtualFleet {
  public:
   /// Agents keep their files in `out`/<id>, which must not hold an earlier run. With `record`, what each
-  /// agent's sensors gave and it published goes to a bag in `record`/<id>. Sessions are numbered from
+  /// agent's sensors gave and it published goes to a bag in `record.folder`/<id>. Sessions are numbered from
   /// `first_session`.
   static Result<std::unique_ptr<VirtualFleet>> create(config::FleetConfig config,
                                                       std::unique_ptr<FleetFeed> feed,
                                                       const std::filesystem::path& out,
-                                                      const std::optional<std::filesystem::path>& record,
+                                                      const RecordOptions& record,
                                                       std::uint16_t first_session = 0);
 
   /// Publishes the fleet's live status there while it runs; `server` outlives this.
@@ -91,7 +92,7 @@ class VirtualFleet {
   };
   VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
       : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
-  Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record,
+  Status add_agents(const std::filesystem::path& out, const RecordOptions& record,
                     std::uint16_t first_session);
   /// Starts the member's agent on a bus of its own. It continues from its store.
   Status start_agent(std::size_t member);

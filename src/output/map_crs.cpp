@@ -86,7 +86,7 @@ std::string MapCrs::text() const {
     return "Coordinates: metres east, north and up of " + origin_text(place_.origin) + ".";
   if (!zone_) {
     return "Coordinates: metres in the map's own frame, z up. Nobody knows its place and its heading on "
-           "Earth, for no robot had GPS.";
+           "Earth, for none of its robots had GPS.";
   }
   const std::string coordinates = "Coordinates: metres in " + name() + " (WGS 84 / UTM zone " +
                                   std::to_string(zone_->number) + (zone_->north ? "N" : "S") + "). ";

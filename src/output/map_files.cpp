@@ -97,7 +97,7 @@ ContentHash map_hash(const store::Store& store, const std::map<NodeId, Pose>& T_
 
 Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                            const store::MergeConfig& config, const std::filesystem::path& directory,
-                           std::span<const MapFiles> others) {
+                           std::span<const MapFiles> others, const std::vector<std::string>& comments) {
   MapFiles files;
   files.directory = directory;
   files.made_of = map_hash(store, T_map_node, config);
@@ -105,7 +105,7 @@ Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_
     return copied_map(*same, directory);
   std::vector<std::filesystem::path> paths;
   for (const char* name : kMapNames) paths.push_back(directory / name);
-  const auto map = write_merged(store, T_map_node, config, paths);
+  const auto map = write_merged(store, T_map_node, config, paths, comments);
   if (!map) return tl::unexpected(map.error());
   warn_of_unreadable(map->outline, store.self());
   if (!map->outline.unreadable.empty()) files.made_of = {};  // not for others
@@ -118,9 +118,10 @@ Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_
 }
 
 Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
-                               const std::filesystem::path& directory) {
+                               const std::filesystem::path& directory,
+                               const std::vector<std::string>& comments) {
   const std::filesystem::path file = directory / file_of(part);
-  const auto map = write_merged(store, part.T_map_node, config, std::array{file});
+  const auto map = write_merged(store, part.T_map_node, config, std::array{file}, comments);
   if (!map) return tl::unexpected(map.error());
   warn_of_unreadable(map->outline, store.self());
   spdlog::warn("{}: nobody knows where {} lies: {} submaps are in {}, not in map.ply", store.self().str(),

@@ -10,6 +10,7 @@
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/output/global_track.hpp"
+#include "fleetmap/output/map_comments.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
@@ -90,13 +91,16 @@ Result<Results> write_results(store::Store& store, const ResultsConfig& config,
       graph::contradict_the_fleet(results.placement, nodes_of(store), LocalFrame(results.origin));
   MapParts parts = map_parts(nodes_of(store), results.placement);
   results.apart = std::move(parts.apart);
-  auto map = write_map(store, parts.main.T_map_node, config.recipe.map, config.directory, others);
+  const store::MergeConfig& merge = config.recipe.map;
+  auto map = write_map(store, parts.main.T_map_node, merge, config.directory, others,
+                       map_comments(store, parts.main, *origin, merge));
   if (!map) return tl::unexpected(map.error());
   results.map = std::move(*map);
   results.missing_submaps = store.nodes().size() - results.map.submaps;
   remove_parts(config.directory);
   for (const MapPart& part : results.apart) {
-    const Result<std::size_t> submaps = write_part(store, part, config.recipe.map, config.directory);
+    const Result<std::size_t> submaps =
+        write_part(store, part, merge, config.directory, map_comments(store, part, *origin, merge));
     if (!submaps) return tl::unexpected(submaps.error());
     results.missing_submaps -= *submaps;
   }

@@ -1,7 +1,8 @@
 #include "fleetmap/output/track_files.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
-#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -39,25 +40,42 @@ nlohmann::json coordinates(const GeoPoint& point) {
           rounded(point.altitude, 1e-4)};
 }
 
+/// Attributes and elements that waypoints and points of a track share.
+Result<std::string> gpx_place(const TrackPoint& point, const std::optional<Geoid>& geoid) {
+  double undulation = 0.0;
+  if (geoid) {
+    const auto found = geoid->undulation(point.position);
+    if (!found) return tl::unexpected(found.error());
+    undulation = *found;
+  }
+  std::string place = fmt::format(" lat=\"{:.9f}\" lon=\"{:.9f}\"><ele>{:.4f}</ele><time>{}</time>",
+                                  point.position.latitude / kDegree, point.position.longitude / kDegree,
+                                  point.position.altitude - undulation, to_utc(point.stamp));
+  if (geoid) place += fmt::format("<geoidheight>{:.4f}</geoidheight>", undulation);
+  return place;
+}
+
 }  // namespace
 
-std::string to_gpx(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
-                   const GeoPoint& origin) {
-  std::ostringstream out;
-  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-         "<gpx version=\"1.1\" creator=\"fleetmap\" xmlns=\"http://www.topografix.com/GPX/1/1\">\n"
-      << std::fixed;
+Result<std::string> to_gpx(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
+                           const GeoPoint& origin, const std::optional<Geoid>& geoid) {
+  std::ostringstream waypoints, tracks;
   for (const auto& [frame, points] : tracks_of(nodes, T_enu_node, origin)) {
-    out << "<trk><name>" << graph::to_string(frame) << "</name><trkseg>\n";
+    tracks << "<trk><name>" << graph::to_string(frame) << "</name><trkseg>\n";
     for (const TrackPoint& point : points) {
-      out << std::setprecision(9) << "<trkpt lat=\"" << point.position.latitude / kDegree << "\" lon=\""
-          << point.position.longitude / kDegree << "\"><ele>" << std::setprecision(4)
-          << point.position.altitude << "</ele><time>" << to_utc(point.stamp) << "</time></trkpt>\n";
+      const auto place = gpx_place(point, geoid);
+      if (!place) return tl::unexpected(place.error());
+      waypoints << "<wpt" << *place << "<name>" << to_string(point.id) << "</name></wpt>\n";
+      tracks << "<trkpt" << *place << "</trkpt>\n";
     }
-    out << "</trkseg></trk>\n";
+    tracks << "</trkseg></trk>\n";
   }
-  out << "</gpx>\n";
-  return out.str();
+  const std::string heights = geoid ? "above the geoid " + geoid->name() + " (sea level)"
+                                    : "above the WGS 84 ellipsoid, not above sea level";
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<gpx version=\"1.1\" creator=\"fleetmap\" xmlns=\"http://www.topografix.com/GPX/1/1\">\n"
+         "<metadata><desc>Heights: metres " +
+         heights + ".</desc></metadata>\n" + waypoints.str() + tracks.str() + "</gpx>\n";
 }
 
 std::string to_geojson(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,

@@ -23,7 +23,8 @@ void emit_topic(YAML::Emitter& out, const BagMetadata::Topic& topic) {
   out << YAML::BeginMap << YAML::Key << "topic_metadata" << YAML::Value << YAML::BeginMap;
   out << YAML::Key << "name" << YAML::Value << topic.name << YAML::Key << "type" << YAML::Value << topic.type;
   out << YAML::Key << "serialization_format" << YAML::Value << "cdr";
-  out << YAML::Key << "offered_qos_profiles" << YAML::Value << YAML::DoubleQuoted << "" << YAML::EndMap;
+  out << YAML::Key << "offered_qos_profiles" << YAML::Value << YAML::DoubleQuoted << topic.offered_qos
+      << YAML::EndMap;
   out << YAML::Key << "message_count" << YAML::Value << topic.messages << YAML::EndMap;
 }
 

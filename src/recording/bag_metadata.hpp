@@ -15,6 +15,7 @@ struct BagMetadata {
     std::string name;
     std::string type;
     std::uint64_t messages = 0;
+    std::string offered_qos;  ///< YAML
   };
   std::string storage = "sqlite3";
   std::string compression_format;  ///< empty: none

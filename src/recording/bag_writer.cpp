@@ -8,100 +8,80 @@
 #include <utility>
 
 #include "bag_metadata.hpp"
-#include "database.hpp"
 #include "fleetmap/core/paths.hpp"
+#include "mcap_storage.hpp"
+#include "offered_qos.hpp"
 #include "ros_names.hpp"
+#include "sqlite_storage.hpp"
 
 namespace fleetmap::recording {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kCommitBytes = 4'000'000;
-constexpr std::int64_t kCommitNs = 1'000'000'000;
+constexpr std::size_t kFlushBytes = 4'000'000;
+constexpr std::int64_t kFlushNs = 1'000'000'000;
 
-/// Tables of rosbag2_storage_default_plugins in ROS 2 Humble. The write-ahead log keeps what was committed
-/// when the writer is killed.
-constexpr char kSchema[] =
-    "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;"
-    "CREATE TABLE schema(schema_version INTEGER PRIMARY KEY,ros_distro TEXT NOT NULL);"
-    "CREATE TABLE metadata(id INTEGER PRIMARY KEY,metadata_version INTEGER NOT NULL,metadata TEXT NOT NULL);"
-    "CREATE TABLE topics(id INTEGER PRIMARY KEY,name TEXT NOT NULL,type TEXT NOT NULL,"
-    "serialization_format TEXT NOT NULL,offered_qos_profiles TEXT NOT NULL);"
-    "CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER NOT NULL,timestamp INTEGER NOT NULL,"
-    "data BLOB NOT NULL);"
-    "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
-    "INSERT INTO schema(schema_version, ros_distro) VALUES (3, 'humble');"
-    "BEGIN";
+constexpr const char* kEndings[] = {"_0.mcap", "_0.db3"};
 
 }  // namespace
 
 struct BagWriter::Impl {
   fs::path dir;
-  Database database;
-  Statement insert_message;
-  Statement insert_topic;
+  std::unique_ptr<StorageFile> file;
   BagMetadata metadata;
-  std::map<std::string, std::pair<std::int64_t, std::size_t>, std::less<>>
-      topics;  ///< id and place in metadata
+  std::map<std::string, std::size_t, std::less<>> topics;  ///< places in metadata
   std::size_t pending_bytes = 0;
   std::optional<std::int64_t> pending_since;
   bool any = false;
   bool closed = false;
 
-  Result<std::pair<std::int64_t, std::size_t>> topic(std::string_view name, std::string_view type);
-  Status commit();
+  Result<std::size_t> topic(std::string_view name, std::string_view type, Durability offered);
+  Status flush();
   Status close();
 };
 
-Result<std::pair<std::int64_t, std::size_t>> BagWriter::Impl::topic(std::string_view name,
-                                                                    std::string_view type) {
+Result<std::size_t> BagWriter::Impl::topic(std::string_view name, std::string_view type, Durability offered) {
   const std::string ros_name = ros_topic(name);
   if (const auto known = topics.find(ros_name); known != topics.end()) return known->second;
-  insert_topic.reset();
-  insert_topic.bind(1, ros_name);
-  insert_topic.bind(2, ros_type(type));
-  if (insert_topic.step() != SQLITE_DONE) return tl::unexpected(database.error("write topic " + ros_name));
-  metadata.topics.push_back({ros_name, ros_type(type), 0});
-  return topics.emplace(ros_name, std::make_pair(database.last_insert_id(), metadata.topics.size() - 1))
-      .first->second;
+  const WrittenTopic added{ros_name, ros_type(type), offered_qos(offered)};
+  if (auto status = file->add_topic(added); !status) return tl::unexpected(status.error());
+  metadata.topics.push_back({added.name, added.type, 0, added.offered_qos});
+  return topics.emplace(ros_name, metadata.topics.size() - 1).first->second;
 }
 
-Status BagWriter::Impl::commit() {
+Status BagWriter::Impl::flush() {
   pending_bytes = 0;
   pending_since.reset();
-  return database.execute("COMMIT; BEGIN");
+  return file->flush();
 }
 
 Status BagWriter::Impl::close() {
   if (closed) return {};
   closed = true;
-  insert_message.reset();
-  insert_topic.reset();
-  if (auto status = database.execute("COMMIT; PRAGMA journal_mode=DELETE"); !status) return status;
+  if (auto status = file->close(); !status) return status;
   return write_metadata(dir, metadata);
 }
 
-Result<BagWriter> BagWriter::create(const fs::path& dir) {
+Result<BagWriter> BagWriter::create(const fs::path& dir, const BagFormat& format) {
   std::error_code error;
   const fs::path absolute = fs::weakly_canonical(dir, error);
   fs::create_directories(absolute, error);
   if (error) return failure(dir.string() + ": cannot be made: " + error.message());
-  const std::string name = absolute.filename().string() + "_0.db3";
-  if (is_there(absolute / kMetadataFile) || is_there(absolute / name)) {
+  const std::string name = absolute.filename().string();
+  const auto holds = [&](const char* ending) { return is_there(absolute / (name + ending)); };
+  if (is_there(absolute / kMetadataFile) || std::ranges::any_of(kEndings, holds))
     return failure(dir.string() + ": holds a bag already; record to another folder");
-  }
-  auto database = Database::create(absolute / name);
-  if (!database) return tl::unexpected(database.error());
-  if (auto status = database->execute(kSchema); !status) return tl::unexpected(status.error());
-  auto message = database->prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)");
-  if (!message) return tl::unexpected(message.error());
-  auto topic = database->prepare(
-      "INSERT INTO topics(name, type, serialization_format, offered_qos_profiles) VALUES (?, ?, 'cdr', '')");
-  if (!topic) return tl::unexpected(topic.error());
-  auto impl = std::make_unique<Impl>(Impl{
-      absolute, std::move(*database), std::move(*message), std::move(*topic), {}, {}, 0, {}, false, false});
-  impl->metadata.files = {name};
+  const bool mcap = format.storage == BagStorage::kMcap;
+  const std::string file_name = name + kEndings[mcap ? 0 : 1];
+  auto file = mcap ? create_mcap_storage(absolute / file_name, format.compression)
+                   : create_sqlite_storage(absolute / file_name);
+  if (!file) return tl::unexpected(file.error());
+  auto impl = std::make_unique<Impl>();
+  impl->dir = absolute;
+  impl->file = std::move(*file);
+  impl->metadata.storage = mcap ? "mcap" : "sqlite3";
+  impl->metadata.files = {file_name};
   return BagWriter(std::move(impl));
 }
 
@@ -116,32 +96,27 @@ BagWriter::~BagWriter() {
   if (const auto status = impl_->close(); !status) spdlog::error("recording: {}", status.error().message);
 }
 
-Status BagWriter::write(std::string_view topic, std::string_view type, Stamp received, ByteView cdr) {
+Status BagWriter::write(std::string_view topic, std::string_view type, Stamp received, ByteView cdr,
+                        Durability offered) {
   if (impl_->closed) return failure(impl_->dir.string() + ": the bag is closed");
-  const auto id = impl_->topic(topic, type);
-  if (!id) return tl::unexpected(id.error());
+  const auto place = impl_->topic(topic, type, offered);
+  if (!place) return tl::unexpected(place.error());
   const std::int64_t ns = to_ns(received);
-  Statement& insert = impl_->insert_message;
-  insert.reset();
-  insert.bind(1, id->first);
-  insert.bind(2, ns);
-  insert.bind(3, cdr);
-  if (insert.step() != SQLITE_DONE) return tl::unexpected(impl_->database.error("write a message"));
-  insert.reset();
+  if (auto status = impl_->file->write(*place, ns, cdr); !status) return status;
   BagMetadata& metadata = impl_->metadata;
-  ++metadata.topics[id->second].messages;
+  ++metadata.topics[*place].messages;
   metadata.first_ns = impl_->any ? std::min(metadata.first_ns, ns) : ns;
   metadata.last_ns = impl_->any ? std::max(metadata.last_ns, ns) : ns;
   impl_->any = true;
   impl_->pending_bytes += cdr.size();
   if (!impl_->pending_since) impl_->pending_since = ns;
-  if (impl_->pending_bytes >= kCommitBytes || ns - *impl_->pending_since >= kCommitNs) return impl_->commit();
+  if (impl_->pending_bytes >= kFlushBytes || ns - *impl_->pending_since >= kFlushNs) return impl_->flush();
   return {};
 }
 
 Status BagWriter::flush() {
   if (impl_->closed) return {};
-  return impl_->commit();
+  return impl_->flush();
 }
 
 Status BagWriter::close() { return impl_->close(); }

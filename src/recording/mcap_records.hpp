@@ -19,6 +19,11 @@ enum class Opcode : std::uint8_t {
   kChannel = 0x04,
   kMessage = 0x05,
   kChunk = 0x06,
+  kMessageIndex = 0x07,
+  kChunkIndex = 0x08,
+  kStatistics = 0x0b,
+  kSummaryOffset = 0x0e,
+  kDataEnd = 0x0f,
 };
 
 inline constexpr std::size_t kPrefixBytes = 9;    ///< opcode, length of the content

@@ -31,6 +31,8 @@ constexpr double kPause = 100.0;   // sweeps: the LiDAR was off
 constexpr double kMissing = 1.75;  // sweeps from scan to scan
 constexpr double kMissingShare = 0.1;
 constexpr std::uint64_t kMinScansChecked = 40;
+/// Of the intervals between scans without point times, so many may be shorter than a sweep.
+constexpr double kUsualShare = 0.1;
 constexpr std::uint64_t kScansPerGround = 5;
 constexpr std::size_t kGrounds = 40;
 constexpr Duration kImuGap = std::chrono::milliseconds(250), kPauseOfImu = std::chrono::seconds(10);
@@ -260,8 +262,22 @@ bool SensorHealth::check(const Fix& fix) {
 
 void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
   const std::optional<Stamp> before = std::exchange(last_scan_, stamp);
-  if (!before || sweep < kShortestSweep || stamp <= *before) return;
-  const double sweeps = to_seconds(stamp - *before) / to_seconds(sweep);
+  if (!before || stamp <= *before) return;
+  const Duration interval = stamp - *before;
+  if (sweep >= kShortestSweep) return count_scan(interval, sweep);
+  if (usual_interval_) return count_scan(interval, *usual_interval_);
+  first_intervals_.push_back(interval);
+  if (first_intervals_.size() < kMinScansChecked) return;
+  std::vector<Duration> sorted = first_intervals_;
+  const auto usual =
+      sorted.begin() + static_cast<std::ptrdiff_t>(kUsualShare * static_cast<double>(sorted.size()));
+  std::ranges::nth_element(sorted, usual);
+  usual_interval_ = std::max(*usual, kShortestSweep);
+  for (const Duration first : first_intervals_) count_scan(first, *usual_interval_);
+}
+
+void SensorHealth::count_scan(Duration interval, Duration sweep) {
+  const double sweeps = to_seconds(interval) / to_seconds(sweep);
   if (sweeps > kPause) return;
   ++scans_;
   // Half a sweep is what a cropped cloud may lack.
@@ -272,7 +288,8 @@ void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
     return;
   scans_missing_ = true;
   state("LiDAR: " + std::to_string(missing_scans_) + " of " + std::to_string(scans_ + missing_scans_) +
-        " scans are missing: a sweep takes " + short_number(to_seconds(sweep)) + " s, and one came every " +
+        " scans are missing: " + (usual_interval_ ? "the closest are " : "a sweep takes ") +
+        short_number(to_seconds(sweep)) + (usual_interval_ ? " s apart" : " s") + ", and one came every " +
         short_number(to_seconds(sweep) * all / static_cast<double>(scans_)) + " s. Use a wire, or " +
         kRaiseReceiveBuffer + "; if the driver crops the cloud, ignore this");
 }

@@ -51,7 +51,10 @@ TEST_F(MapExports, TracksAreGpxOrGeoJsonByTheirName) {
   const auto gpx = export_tracks(stored, "located.db", path("ways.gpx"));
   ASSERT_TRUE(gpx) << gpx.error().message;
   EXPECT_EQ(*gpx, path("ways.gpx").string() + ": 6 nodes");
-  EXPECT_THAT(text("ways.gpx"), AllOf(HasSubstr("<gpx"), HasSubstr("<trkpt")));
+  EXPECT_THAT(text("ways.gpx"),
+              AllOf(HasSubstr("<gpx"), HasSubstr("<trkpt"), HasSubstr("above the WGS 84 ellipsoid")));
+  const auto missing = export_tracks(stored, "located.db", path("sea.gpx"), "no-such-geoid");
+  EXPECT_THAT(missing.error().message, HasSubstr("no-such-geoid"));
   ASSERT_TRUE(export_tracks(stored, "located.db", path("ways.geojson")));
   EXPECT_THAT(text("ways.geojson"), AllOf(StartsWith("{"), HasSubstr("LineString"), Not(HasSubstr("<gpx"))));
 }

@@ -14,7 +14,7 @@ namespace {
 class SensorRecorderTest : public ::testing::Test {
  protected:
   std::unique_ptr<SensorRecorder> recorder() {
-    return std::move(SensorRecorder::create(directory_, topics_, true, robot_).value());
+    return std::move(SensorRecorder::create({directory_.string(), {}}, topics_, true, robot_).value());
   }
   /// An IMU sample and a fix.
   void publish(std::int64_t ms) {

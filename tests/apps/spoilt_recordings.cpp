@@ -121,17 +121,23 @@ void played_twice(Recording& recording) {
   }
 }
 
+Spoilt corrected(Spoilt row) {
+  row.corrected = true;
+  return row;
+}
+
 std::vector<Spoilt> of_imu() {
   Eigen::Matrix3d x_and_z;
   x_and_z << 0, 0, 1, 0, 1, 0, 1, 0, 0;
   return {
-      {"acceleration_in_g", each<Imu>([](Imu& imu) { imu.specific_force /= kG; }), "its unit is g "},
-      {"acceleration_in_milli_g", each<Imu>([](Imu& imu) { imu.specific_force *= 1e3 / kG; }),
-       "its unit is milli-g "},
+      corrected(
+          {"acceleration_in_g", each<Imu>([](Imu& imu) { imu.specific_force /= kG; }), "its unit is g "}),
+      corrected({"acceleration_in_milli_g", each<Imu>([](Imu& imu) { imu.specific_force *= 1e3 / kG; }),
+                 "its unit is milli-g "}),
       {"acceleration_without_gravity", each<Imu>([](Imu& imu) { imu.specific_force.setZero(); }),
        "the acceleration is 0"},
       {"accelerometer_bias", each<Imu>([](Imu& imu) { imu.specific_force.x() += 1.0; }), "", true},
-      {"gyro_in_degrees", each<Imu>([](Imu& imu) { imu.angular_velocity /= kDegree; }), "deg/s"},
+      corrected({"gyro_in_degrees", each<Imu>([](Imu& imu) { imu.angular_velocity /= kDegree; }), "deg/s"}),
       {"gyro_axes_swapped",
        each<Imu>([=](Imu& imu) { imu.angular_velocity = x_and_z * imu.angular_velocity; }),
        "its axes are swapped"},
@@ -140,8 +146,8 @@ std::vector<Spoilt> of_imu() {
       {"imu_upside_down", turned_imu(rotation_from_rpy(std::numbers::pi, 0.0, 0.0)), "IMU: gravity is 1"},
       {"imu_gaps", keep_if<Imu>([](std::size_t, double t) { return std::fmod(t, 3.0) < 2.0; }),
        "IMU: samples are missing"},
-      {"imu_boot_time", shifted<Imu>(-std::chrono::seconds(1'749'999'900)), "imu: stamps are"},
-      {"imu_in_tai", shifted<Imu>(std::chrono::seconds(37)), "imu: stamps are 37.00 s ahead"},
+      corrected({"imu_boot_time", shifted<Imu>(-std::chrono::seconds(1'749'999'900)), "imu: stamps are"}),
+      corrected({"imu_in_tai", shifted<Imu>(std::chrono::seconds(37)), "imu: stamps are 37.00 s ahead"}),
       {"imu_200_ms_late", shifted<Imu>(milliseconds(-200)), "the gyro turns"},
       {"imu_200_ms_early", shifted<Imu>(milliseconds(200)), "the gyro turns"},
   };
@@ -159,18 +165,19 @@ std::vector<Spoilt> of_wheels() {
       {"wheels_turn_the_other_way",
        each<Wheel>([](Wheel& wheel) { wheel.yaw_rate = -wheel.yaw_rate.value_or(0.0); }),
        "the sign of twist.angular.z is wrong"},
-      {"pose_instead_of_twist", pose_instead_of_twist, "its pose moves while its twist is zero"},
+      corrected({"pose_instead_of_twist", pose_instead_of_twist, "its pose moves while its twist is zero"}),
   };
 }
 
 std::vector<Spoilt> of_lidar() {
   std::mt19937 random(1);
   return {
-      {"lidar_in_gps_time", shifted<Scan>(std::chrono::seconds(18)), "lidar: stamps are 18.00 s ahead"},
+      corrected(
+          {"lidar_in_gps_time", shifted<Scan>(std::chrono::seconds(18)), "lidar: stamps are 18.00 s ahead"}),
       {"scans_stamped_at_their_end", shifted<Scan>(milliseconds(100)), "the gyro turns"},
       {"lidar_100_ppm_fast",
        over_time<Scan>([](Scan& scan, double t) { scan.stamp += from_seconds(1e-4 * t); }), ""},
-      {"point_times_in_microseconds", integer_times(1e6), "microseconds"},
+      corrected({"point_times_in_microseconds", integer_times(1e6), "microseconds"}),
       {"point_times_in_nanoseconds", integer_times(1e9), ""},
       {"no_point_times", each<Scan>([](Scan& scan) { scan.has_time = false; }), ""},
       {"lidar_pitched", turned_points(0.0, 20.0 * kDegree, 0.0), "the ground is tilted by"},
@@ -186,6 +193,12 @@ std::vector<Spoilt> of_lidar() {
       {"scans_dropped_5_of_6", keep_if<Scan>([](std::size_t k, double) { return k % 6 == 0; }),
        "scans are missing"},
       {"scans_at_half_rate", keep_if<Scan>([](std::size_t k, double) { return k % 2 == 0; }),
+       "scans are missing"},
+      {"scans_dropped_without_point_times",
+       [random](Recording& recording) mutable {
+         each<Scan>([](Scan& scan) { scan.has_time = false; })(recording);
+         keep_if<Scan>([&](std::size_t, double) { return random() % 6 == 0; })(recording);
+       },
        "scans are missing"},
       {"points_without_range", points([random](sensor::ScanPoint& point) mutable {
          if (random() % 5 == 0) point.position.setConstant(random() % 2 == 0 ? 0.0f : kNan);
@@ -221,7 +234,8 @@ std::vector<Spoilt> of_gps_and_all() {
          })(recording);
        },
        "GPS: its track misses the way"},
-      {"gps_an_hour_late", shifted<Fix>(std::chrono::hours(-1)), "gps: stamps are 3600.00 s behind"},
+      corrected(
+          {"gps_an_hour_late", shifted<Fix>(std::chrono::hours(-1)), "gps: stamps are 3600.00 s behind"}),
       {"played_twice", played_twice, "set back"},
       {"imu_at_half_rate", keep_if<Imu>([](std::size_t k, double) { return k % 2 == 0; }), ""},
       {"gps_at_1_hz", keep_if<Fix>([](std::size_t k, double) { return k % 5 == 0; }), "", true},

@@ -25,7 +25,8 @@ struct Spoilt {
   std::function<void(Recording&)> spoil;
   /// Part of the sentence that names the cause; empty: it must do no harm.
   std::string named;
-  bool in_place = false;  ///< it spoils the place on the Earth, not the odometry
+  bool in_place = false;   ///< it spoils the place on the Earth, not the odometry
+  bool corrected = false;  ///< it is named and must do no harm either
 };
 
 /// As `Spoilt` of one type of sample: a change of each.

@@ -196,7 +196,9 @@ void add_file(const Seeds& seeds, const std::string& name, const fs::path& file)
 void bag(const fs::path& corpus) {
   const Folder folder;
   {
-    auto bag = recording::BagWriter::create(folder.path() / "drive").value();
+    auto bag =
+        recording::BagWriter::create(folder.path() / "drive", {.storage = recording::BagStorage::kSqlite})
+            .value();
     const auto put = [&](const bus::Topic& topic, const Bytes& cdr) {
       require(bag.write(topic.name, topic.type, kNow, cdr).has_value(), "the bag cannot be written");
     };

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fleetmap/output/map_files.hpp"
 #include "support/scene_store.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -11,22 +12,39 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(MapComments, NameTheOriginAndTheTimeOrThatNobodyKnowsThePlace) {
   const fleetmap::testing::TemporaryFolder folder;
   auto store = store::Store::open(folder.path() / "store.db", AgentId::parse("r1").value());
   ASSERT_TRUE(store);
   MapPart part{{}, fleetmap::testing::add_scene(*store), true};
+  const store::MergeConfig merge;
   EXPECT_THAT(
-      map_comments(*store, part, fleetmap::testing::kSceneOrigin),
+      map_comments(*store, part, fleetmap::testing::kSceneOrigin, merge),
       ElementsAre("Coordinates: metres east, north and up of 49.000000000, 8.400000000 deg, 110.000 m "
                   "above the WGS 84 ellipsoid.",
-                  "Newest node: 2026-11-25T18:12:41.000Z"));
+                  StartsWith("CRS: LOCAL_CS[\"East-north-up frame at 49.000000000, 8.400000000 deg"),
+                  "Robots: r1, r2", "Newest node: 2026-11-25T18:12:41.000Z",
+                  "Map hash: " + to_hex(map_hash(*store, part.T_map_node, merge))));
   part.georeferenced = false;
-  EXPECT_THAT(map_comments(*store, part, {}),
-              ElementsAre(HasSubstr("Nobody knows its place"), HasSubstr("Newest node")));
+  EXPECT_THAT(map_comments(*store, part, {}, merge),
+              ElementsAre(HasSubstr("Nobody knows its place"), HasSubstr("Earth unknown"),
+                          HasSubstr("Robots"), HasSubstr("Newest node"), HasSubstr("Map hash")));
   part.T_map_node.clear();
-  EXPECT_THAT(map_comments(*store, part, {}), ElementsAre(HasSubstr("Coordinates")));
+  EXPECT_THAT(map_comments(*store, part, {}, merge),
+              ElementsAre(HasSubstr("Coordinates"), HasSubstr("CRS"), HasSubstr("Map hash")));
+}
+
+TEST(MapComments, AreOneShortLineEach) {
+  const fleetmap::testing::TemporaryFolder folder;
+  auto store = store::Store::open(folder.path() / "store.db", AgentId::parse("r1").value());
+  ASSERT_TRUE(store);
+  const MapPart part{{}, fleetmap::testing::add_scene(*store), true};
+  for (const std::string& line : map_comments(*store, part, fleetmap::testing::kSceneOrigin, {})) {
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    EXPECT_LT(line.size(), 1000u) << "readers of PLY have a limit";
+  }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "graph/simulated_fleet.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
@@ -77,6 +78,12 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
   const auto recipe = map_recipe(store);
   ASSERT_TRUE(recipe);
   EXPECT_EQ(recipe->origin, *config.recipe.site_origin);
+  for (const char* name : {"map.ply", "map.pcd"}) {
+    const std::string header = testing::file_text(folder_.path() / name).substr(0, 1000);
+    for (const char* part : {"north and up of 48.001000000, 11.000000000 deg", "CRS: LOCAL_CS[", "Robots: r1",
+                             "Newest node: ", "Map hash: "})
+      EXPECT_NE(header.find(part), std::string::npos) << name << ": " << part;
+  }
   const auto again =
       merged_map(store, place(store, recipe->origin, recipe->placement).T_enu_node, recipe->merge);
   EXPECT_EQ(again.cloud.size(), results->map.points);
@@ -109,6 +116,12 @@ TEST_F(ResultsTest, StoreOfAKilledAgentGivesTheSameMap) {
   const auto recipe = map_recipe(store);
   ASSERT_TRUE(recipe);
   EXPECT_EQ(recipe->origin, *config.recipe.site_origin);
+  for (const char* name : {"map.ply", "map.pcd"}) {
+    const std::string header = testing::file_text(folder_.path() / name).substr(0, 1000);
+    for (const char* part : {"north and up of 48.001000000, 11.000000000 deg", "CRS: LOCAL_CS[", "Robots: r1",
+                             "Newest node: ", "Map hash: "})
+      EXPECT_NE(header.find(part), std::string::npos) << name << ": " << part;
+  }
   EXPECT_EQ(recipe->merge.voxel_m, 0.25);
   EXPECT_EQ(recipe->placement.method, graph::PlacementMethod::paper);
 

@@ -2,8 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numbers>
+
+#include "geometry/geoid_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
 namespace {
@@ -36,12 +40,41 @@ class TrackFiles : public ::testing::Test {
 };
 
 TEST_F(TrackFiles, GpxHasATrackOfEachFrameInUtc) {
-  const std::string gpx = to_gpx(nodes_, T_enu_node_, origin_);
+  const std::string gpx = to_gpx(nodes_, T_enu_node_, origin_, std::nullopt).value();
   EXPECT_THAT(gpx, HasSubstr("<trk><name>r1</name><trkseg>\n<trkpt lat=\"48.000000000\" lon=\"11.000000000\">"
                              "<ele>502.0000</ele><time>2026-11-25T18:12:39.000Z</time></trkpt>\n"));
   EXPECT_THAT(gpx, HasSubstr("<time>2026-11-25T18:12:40.500Z</time>"));
   EXPECT_THAT(gpx, HasSubstr("<trk><name>r2</name>"));
   EXPECT_THAT(gpx, ::testing::EndsWith("</trk>\n</gpx>\n"));
+}
+
+TEST_F(TrackFiles, GpxStatesItsHeightsAndNamesTheNodes) {
+  const std::string gpx = to_gpx(nodes_, T_enu_node_, origin_, std::nullopt).value();
+  EXPECT_THAT(gpx, HasSubstr("<metadata><desc>Heights: metres above the WGS 84 ellipsoid, not above sea "
+                             "level.</desc></metadata>\n<wpt"));
+  EXPECT_THAT(gpx, HasSubstr("<wpt lat=\"48.000000000\" lon=\"11.000000000\"><ele>502.0000</ele>"
+                             "<time>2026-11-25T18:12:39.000Z</time><name>r1/0</name></wpt>\n"));
+  for (const char* node : {"r1/0", "r1/1", "r2/0"})
+    EXPECT_THAT(gpx, HasSubstr(std::string("<name>") + node + "</name></wpt>"));
+  EXPECT_LT(gpx.rfind("<wpt"), gpx.find("<trk>")) << "the order of GPX's schema";
+  EXPECT_THAT(gpx, Not(HasSubstr("geoidheight")));
+}
+
+TEST_F(TrackFiles, GpxAboveAGeoidHasItsHeightsToo) {
+  const fleetmap::testing::TemporaryFolder folder;
+  fleetmap::testing::write_sloped_geoid(folder.path(), "slope");
+  setenv("GEOGRAPHICLIB_GEOID_PATH", folder.path().c_str(), 1);
+  const auto geoid = Geoid::load("slope");
+  unsetenv("GEOGRAPHICLIB_GEOID_PATH");
+  ASSERT_TRUE(geoid) << geoid.error().message;
+  constexpr double kUndulation = 4.8;  // 0.1 m for each degree of latitude
+  const std::string gpx = to_gpx(nodes_, T_enu_node_, origin_, *geoid).value();
+  EXPECT_THAT(gpx, HasSubstr("Heights: metres above the geoid slope (sea level)."));
+  const auto number_of = [&](const std::string& element) {
+    return std::stod(gpx.substr(gpx.find('<' + element + '>') + element.size() + 2));
+  };
+  EXPECT_NEAR(number_of("ele"), 502.0 - kUndulation, 1e-3);
+  EXPECT_NEAR(number_of("geoidheight"), kUndulation, 1e-3);
 }
 
 TEST_F(TrackFiles, GeoJsonHasLinesAndPointsThatLeadBackToThePoses) {
@@ -59,7 +92,7 @@ TEST_F(TrackFiles, GeoJsonHasLinesAndPointsThatLeadBackToThePoses) {
 }
 
 TEST_F(TrackFiles, NothingPlacedIsAnEmptyFile) {
-  EXPECT_THAT(to_gpx(nodes_, {}, origin_), Not(HasSubstr("<trk>")));
+  EXPECT_THAT(to_gpx(nodes_, {}, origin_, std::nullopt).value(), Not(HasSubstr("<trk>")));
   EXPECT_TRUE(nlohmann::json::parse(to_geojson(nodes_, {}, origin_))["features"].empty());
 }
 

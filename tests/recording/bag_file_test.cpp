@@ -39,7 +39,7 @@ std::size_t files_in(const fs::path& folder) {
 TEST(BagFile, CompressedAsAWholeIsUnpackedWhileItIsRead) {
   const TemporaryFolder folder;
   {
-    auto bag = *BagWriter::create(folder.path() / "b");
+    auto bag = *BagWriter::create(folder.path() / "b", {.storage = BagStorage::kSqlite});
     put_drive(bag, 1);
   }
   compress(folder.path() / "b" / "b_0.db3");
@@ -71,7 +71,7 @@ TEST(BagFile, CompressedAsAWholeIsUnpackedWhileItIsRead) {
 TEST(BagFile, MessagesCompressedOneByOneAreUnpacked) {
   const TemporaryFolder folder;
   {
-    auto bag = *BagWriter::create(folder.path() / "b");
+    auto bag = *BagWriter::create(folder.path() / "b", {.storage = BagStorage::kSqlite});
     put(bag, ros_codec::topics::points(), kStart, zstd_of(ros_codec::encode(scan_at(kStart))));
     put(bag, ros_codec::topics::imu(), kStart + 1, zstd_of(ros_codec::encode(imu_at(kStart))));
     put(bag, ros_codec::topics::points(), kStart + 2, Bytes{0x28, 0xb5, 0x2f, 0xfd, 1, 2, 3});

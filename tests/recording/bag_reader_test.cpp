@@ -17,7 +17,7 @@ class BagReaderTest : public ::testing::Test {
  protected:
   /// Writes scans at these stamps (ns after kStart), received 5 ns later, and returns the database's file.
   fs::path write_bag(const std::string& name, std::initializer_list<std::int64_t> stamps) const {
-    auto bag = BagWriter::create(folder_.path() / name).value();
+    auto bag = BagWriter::create(folder_.path() / name, {.storage = BagStorage::kSqlite}).value();
     for (const std::int64_t ns : stamps)
       put(bag, ros_codec::topics::points(), kStart + ns + 5, ros_codec::encode(scan_at(kStart + ns)));
     EXPECT_TRUE(bag.close());

@@ -30,7 +30,7 @@ std::string failure_of(const fs::path& path) {
 TEST(Bag, OneDatabaseFileIsARecording) {
   const TemporaryFolder folder;
   {
-    auto bag = *BagWriter::create(folder.path() / "b");
+    auto bag = *BagWriter::create(folder.path() / "b", {.storage = BagStorage::kSqlite});
     put_drive(bag, 1);
   }
   auto reader = open(folder.path() / "b" / "b_0.db3");
@@ -43,7 +43,7 @@ TEST(Bag, SplitsAreReadInOrder) {
   for (int k = 0; k < 12; ++k) {
     const std::string name = "part" + std::to_string(k);
     {
-      auto bag = *BagWriter::create(folder.path() / name);
+      auto bag = *BagWriter::create(folder.path() / name, {.storage = BagStorage::kSqlite});
       put(bag, ros_codec::topics::points(), kStart + k, ros_codec::encode(scan_at(kStart + k)));
     }
     fs::create_directories(folder.path() / "b");
@@ -149,7 +149,7 @@ TEST(Bag, MessagesWithoutAStampTakeTheTimeOfRecording) {
 TEST(Bag, ATruncatedFileIsAnErrorThatSaysSo) {
   const TemporaryFolder folder;
   {
-    auto bag = *BagWriter::create(folder.path() / "b");
+    auto bag = *BagWriter::create(folder.path() / "b", {.storage = BagStorage::kSqlite});
     put_drive(bag, 20);
   }
   const auto file = folder.path() / "b" / "b_0.db3";

@@ -24,11 +24,20 @@ using fleetmap::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using namespace recording::testing;
 
-TEST(BagWriter, WhatIsWrittenIsRead) {
+constexpr BagFormat kMcap{.storage = BagStorage::kMcap};
+constexpr BagFormat kSqlite{.storage = BagStorage::kSqlite};
+
+/// Each storage.
+class BagWriterOf : public ::testing::TestWithParam<BagFormat> {};
+INSTANTIATE_TEST_SUITE_P(Storages, BagWriterOf, ::testing::Values(kMcap, kSqlite), [](const auto& instance) {
+  return instance.param.storage == BagStorage::kMcap ? "mcap" : "sqlite3";
+});
+
+TEST_P(BagWriterOf, WhatIsWrittenIsRead) {
   const TemporaryFolder folder;
   const auto dir = folder.path() / "drive";
   {
-    auto bag = BagWriter::create(dir);
+    auto bag = BagWriter::create(dir, GetParam());
     ASSERT_TRUE(bag) << bag.error().message;
     put_drive(*bag, 3);
     ASSERT_TRUE(bag->close());
@@ -57,7 +66,7 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
   const TemporaryFolder folder;
   const auto dir = folder.path() / "drive";
   {
-    auto bag = BagWriter::create(dir);
+    auto bag = BagWriter::create(dir, kSqlite);
     ASSERT_TRUE(bag);
     put(*bag, ros_codec::topics::imu(), kStart, ros_codec::encode(imu_at(kStart)));
     put(*bag, ros_codec::topics::imu(), kStart + 5, ros_codec::encode(imu_at(kStart + 5)));
@@ -67,11 +76,13 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
   for (const auto& entry : std::filesystem::directory_iterator(dir)) files.push_back(entry.path().filename());
   EXPECT_THAT(files, ::testing::UnorderedElementsAre("metadata.yaml", "drive_0.db3"));
   const std::string yaml = fleetmap::testing::file_text(dir / "metadata.yaml");
-  for (const char* line : {"version: 5", "storage_identifier: sqlite3", "nanoseconds: 9",
-                           "nanoseconds_since_epoch: 1700000000000000000", "message_count: 3", "name: /imu",
-                           "type: sensor_msgs/msg/Imu", "serialization_format: cdr",
-                           "offered_qos_profiles: \"\"", "name: /fleetmap/global_pose",
-                           "type: fleetmap/msg/GlobalPose", "- drive_0.db3", "compression_mode: \"\""}) {
+  for (const char* line :
+       {"version: 5", "storage_identifier: sqlite3", "nanoseconds: 9",
+        "nanoseconds_since_epoch: 1700000000000000000", "message_count: 3", "name: /imu",
+        "type: sensor_msgs/msg/Imu", "serialization_format: cdr",
+        "offered_qos_profiles: \"- history: 1\\n  depth: 10\\n  reliability: 1\\n  durability: 2\\n",
+        "name: /fleetmap/global_pose", "type: fleetmap/msg/GlobalPose", "- drive_0.db3",
+        "compression_mode: \"\""}) {
     EXPECT_THAT(yaml, HasSubstr(line));
   }
   sqlite3* database = nullptr;
@@ -93,13 +104,35 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
       "1|1|1700000000000000000|00010000|2|1|1700000000000000005|00010000|3|2|1700000000000000009|00010000|");
 }
 
-TEST(BagWriter, AKilledWriterLeavesAReadableBag) {
+TEST(BagWriter, WritesMcapWithoutAnotherWord) {
+  const TemporaryFolder folder;
+  const auto dir = folder.path() / "drive";
+  {
+    auto bag = BagWriter::create(dir);
+    ASSERT_TRUE(bag);
+    const bus::Topic mounts = ros_codec::topics::tf_static(), frames = ros_codec::topics::tf();
+    ASSERT_TRUE(
+        bag->write(mounts.name, mounts.type, stamp_from_ns(kStart), Bytes(8), Durability::kTransientLocal));
+    ASSERT_TRUE(bag->write(frames.name, frames.type, stamp_from_ns(kStart), Bytes(8)));
+  }
+  EXPECT_TRUE(std::filesystem::exists(dir / "drive_0.mcap"));
+  const std::string yaml = fleetmap::testing::file_text(dir / "metadata.yaml");
+  EXPECT_THAT(yaml, HasSubstr("storage_identifier: mcap\n"));
+  EXPECT_THAT(yaml, HasSubstr("- drive_0.mcap\n"));
+  const std::size_t mounts = yaml.find("name: /tf_static\n"), frames = yaml.find("name: /tf\n");
+  ASSERT_LT(mounts, frames);
+  ASSERT_NE(frames, std::string::npos);
+  EXPECT_THAT(yaml.substr(mounts, frames - mounts), HasSubstr("durability: 1\\n")) << "latched";
+  EXPECT_THAT(yaml.substr(frames), HasSubstr("durability: 2\\n"));
+}
+
+TEST_P(BagWriterOf, AKilledWriterLeavesAReadableBag) {
   const TemporaryFolder folder;
   const auto dir = folder.path() / "killed";
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    auto bag = BagWriter::create(dir);
+    auto bag = BagWriter::create(dir, GetParam());
     if (!bag) _exit(1);
     put_drive(*bag, 3);
     kill(getpid(), SIGKILL);
@@ -115,9 +148,9 @@ TEST(BagWriter, AKilledWriterLeavesAReadableBag) {
   EXPECT_GE(to_ns(stamp_of(samples.back())), kStart + 1'980'000'000);
 }
 
-TEST(BagWriter, FlushedMessagesAreThereForAReaderAtOnce) {
+TEST_P(BagWriterOf, FlushedMessagesAreThereForAReaderAtOnce) {
   const TemporaryFolder folder;
-  auto bag = BagWriter::create(folder.path() / "live");
+  auto bag = BagWriter::create(folder.path() / "live", GetParam());
   ASSERT_TRUE(bag);
   put(*bag, ros_codec::topics::points(), kStart, ros_codec::encode(scan_at(kStart)));
   ASSERT_TRUE(bag->flush());
@@ -128,9 +161,14 @@ TEST(BagWriter, FlushedMessagesAreThereForAReaderAtOnce) {
 
 TEST(BagWriter, NeverWritesIntoABagThatIsThere) {
   const TemporaryFolder folder;
-  { ASSERT_TRUE(BagWriter::create(folder.path() / "a")); }
-  EXPECT_THAT(BagWriter::create(folder.path() / "a").error().message,
-              HasSubstr("holds a bag already; record to another folder"));
+  for (const BagFormat& format : {kMcap, kSqlite}) {
+    const auto dir = folder.path() / (format.storage == BagStorage::kMcap ? "a" : "b");
+    { ASSERT_TRUE(BagWriter::create(dir, format)); }
+    std::filesystem::remove(dir / "metadata.yaml");
+    for (const BagFormat& other : {kMcap, kSqlite})
+      EXPECT_THAT(BagWriter::create(dir, other).error().message,
+                  HasSubstr("holds a bag already; record to another folder"));
+  }
   folder.write("file", "");
   EXPECT_THAT(BagWriter::create(folder.path() / "file" / "b").error().message, HasSubstr("cannot be made"));
 }

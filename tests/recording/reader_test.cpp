@@ -17,7 +17,7 @@ using namespace recording::testing;
 TEST(Reader, OpensEveryKindByItsContent) {
   const fleetmap::testing::TemporaryFolder folder;
   {
-    auto bag = BagWriter::create(folder.path() / "bag").value();
+    auto bag = BagWriter::create(folder.path() / "bag", {.storage = BagStorage::kSqlite}).value();
     put(bag, ros_codec::topics::points(), kStart, ros_codec::encode(scan_at(kStart)));
   }
   const float point[4] = {1, 2, 3, 0};

@@ -14,7 +14,7 @@ using namespace recording::testing;
 TEST(SqliteFile, GivesMessagesByTimeWithTheirTopics) {
   const TemporaryFolder folder;
   {
-    auto bag = *BagWriter::create(folder.path() / "b");
+    auto bag = *BagWriter::create(folder.path() / "b", {.storage = BagStorage::kSqlite});
     put(bag, ros_codec::topics::points(), kStart + 2, Bytes{2});
     put(bag, ros_codec::topics::imu(), kStart + 1, Bytes{1, 1});
     put(bag, ros_codec::topics::points(), kStart + 3, Bytes{});

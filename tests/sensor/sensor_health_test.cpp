@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 namespace fleetmap::sensor {
 namespace {
@@ -159,6 +161,25 @@ TEST(SensorHealth, ScansThatTheNetworkLostAreNamed) {
   EXPECT_THAT(half_a_sweep.findings(), IsEmpty()) << "one of a hundred";
   EXPECT_THAT(lossy.findings(), ElementsAre(HasSubstr("scans are missing")));
   EXPECT_NEAR(static_cast<double>(lossy.missing_scans()), 495.0, 5.0);
+  EXPECT_EQ(all.missing_scans(), 0u);
+}
+
+TEST(SensorHealth, ScansWithoutPointTimesAreMissedByTheIntervalsBetweenThem) {
+  SensorHealth all, jittery, lossy, later;
+  std::mt19937 random(7);
+  std::normal_distribution<double> jitter(0.0, 0.015);
+  for (int k = 0; k < 600; ++k) {
+    const Stamp stamp = kStart + std::chrono::milliseconds(100 * k);
+    all.check_scan(stamp, {});
+    jittery.check_scan(stamp + from_seconds(std::clamp(jitter(random), -0.04, 0.04)), {});
+    const bool arrives = random() % 6 == 0;
+    if (arrives) lossy.check_scan(stamp, {});
+    if (arrives || k < 100) later.check_scan(stamp, {});
+  }
+  EXPECT_THAT(all.findings(), IsEmpty());
+  EXPECT_THAT(jittery.findings(), IsEmpty());
+  EXPECT_THAT(lossy.findings(), ElementsAre(HasSubstr("scans are missing: the closest are 0.1 s apart")));
+  EXPECT_THAT(later.findings(), ElementsAre(HasSubstr("scans are missing")));
   EXPECT_EQ(all.missing_scans(), 0u);
 }
 

@@ -49,13 +49,15 @@ struct MapFiles {
 };
 
 /// Writes map.ply and map.pcd into `directory`, or copies those of `others` that are made of the
-/// same. Warns of submaps that cannot be read and leaves them out.
+/// same. Warns of submaps that cannot be read and leaves them out. `comments` are lines for the headers, here
+/// and below.
 Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                            const store::MergeConfig& config, const std::filesystem::path& directory,
-                           std::span<const MapFiles> others);
+                           std::span<const MapFiles> others, const std::vector<std::string>& comments);
 /// Writes file_of(part) and returns how many submaps it shows.
 Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
-                               const std::filesystem::path& directory);
+                               const std::filesystem::path& directory,
+                               const std::vector<std::string>& comments);
 /// Removes the parts of an earlier run, since nodes that could not be placed then may be in the map now.
 void remove_parts(const std::filesystem::path& directory);
 /// Removes temporary files, up to gigabytes, of a program that was killed while it merged a map.

@@ -39,8 +39,9 @@ class SensorHealth {
   const std::optional<std::string>& gyro_in_degrees() const { return gyro_in_degrees_; }
   /// True when the wheels' turns, or rates that no robot reaches, decided it.
   bool gyro_unit_decided() const;
-  /// A scan with point times, in order. A spinning LiDAR's sweep ends where the next one begins, so scans are
-  /// missing if they come more seldom: lost by the network or the system's receive buffer.
+  /// A scan, in order. A spinning LiDAR's sweep ends where the next one begins, so scans are missing if they
+  /// come more seldom: lost by the network or the system's receive buffer. Without point times the shortest
+  /// usual interval of the first scans stands for the sweep, so a loss of every other scan is not noticed.
   void check_scan(Stamp stamp, Duration sweep);
   /// Counts a scan. True for some, until it is decided how the ground lies: ground_normal() should be found.
   bool ground_due();
@@ -61,6 +62,7 @@ class SensorHealth {
   void correct_force(Imu& imu);
   void check_gravity(const Imu& imu);
   void check_gaps(Stamp stamp);
+  void count_scan(Duration interval, Duration sweep);
   bool correct_rate(Imu& imu);
   bool correct_twist(Wheel& wheel);
   void state(std::string finding);
@@ -76,6 +78,8 @@ class SensorHealth {
   std::uint64_t refused_ = 0;
   std::optional<double> force_scale_;  ///< once the unit is decided, by the median of the first norms
   std::optional<Stamp> last_scan_;
+  std::vector<Duration> first_intervals_;   ///< between scans without point times
+  std::optional<Duration> usual_interval_;  ///< the shortest of these that is usual
   std::vector<double> first_norms_;
   std::vector<Eigen::Vector3d> first_forces_;  ///< directions in base_link
   Eigen::Quaterniond q_base_imu_ = Eigen::Quaterniond::Identity();

@@ -1,14 +1,14 @@
-// Reads what `fleetmap map export` writes as LAS with a reader of others (npm's copc) and compares it with the PLY of
-// the same store: a point for each, the same shape, within its header's bounds.
+// Reads what `fleetmap map export` writes as LAS with two readers of others (npm's copc and @loaders.gl/las) and
+// compares it with the PLY of the same store: a point for each, the same shape, within its header's bounds.
 //   node las_readers_test.mjs FLEETMAP FOLDER
-// Exit code 77: skipped, since npm cannot install the reader into FOLDER.
+// Exit code 77: skipped, since npm cannot install the readers into FOLDER.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {copyFileSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {dirname, join, resolve} from 'node:path';
-import {fileURLToPath} from 'node:url';
+import {fileURLToPath, pathToFileURL} from 'node:url';
 
 const [fleetmap, installed] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
@@ -28,10 +28,12 @@ const npm = spawnSync(
   {cwd: installed, encoding: 'utf8', timeout: 120_000},
 );
 if (npm.status !== 0) {
-  console.log(`skipped: npm cannot install the reader: ${npm.stderr}`);
+  console.log(`skipped: npm cannot install the readers: ${npm.stderr}`);
   process.exit(77);
 }
 const {Las} = createRequire(resolve(installed, 'package.json'))('copc');
+const loadersGl = pathToFileURL(join(resolve(installed), 'node_modules/@loaders.gl/las/dist/index.js'));
+const {LAZRsLoader} = await import(loadersGl.href);
 const folder = mkdtempSync(join(tmpdir(), 'fleetmap_las_'));
 
 function run(...args) {
@@ -51,6 +53,23 @@ async function readLas(file) {
     return bytes.subarray(vlr.contentOffset, vlr.contentOffset + vlr.contentLength - 1).toString();
   };
   return {header, view, wkt: record('LASF_Projection', 2112), text: record('LASF_Spec', 3)};
+}
+
+/**
+ * The same by @loaders.gl/las. Its default loader reads no LAS 1.4; the other one does, and fetches its WebAssembly,
+ * which Node does not from files.
+ */
+async function readByLoadersGl(file) {
+  const bytes = readFileSync(file);
+  const {fetch} = globalThis;
+  globalThis.fetch = async (url) =>
+    new Response(readFileSync(fileURLToPath(url)), {headers: {'content-type': 'application/wasm'}});
+  try {
+    const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
+    return await LAZRsLoader.parse(buffer, {las: {fp64: true, shape: 'mesh', colorDepth: 'auto'}});
+  } finally {
+    globalThis.fetch = fetch;
+  }
 }
 
 /** x, y, z of each point; the files here are binary, of float32. */
@@ -97,6 +116,13 @@ try {
   assert.match(utm.text, /above the WGS 84 ellipsoid/);
   assert.match(said, /EPSG:32\d{3}/);
   const points = checkPoints(utm);
+  const mesh = await readByLoadersGl(join(folder, 'map.las'));
+  assert.deepEqual([mesh.loaderData.versionAsString, mesh.loaderData.pointsFormatId], ['1.4', 6]);
+  assert.equal(mesh.header.vertexCount, points.length);
+  const positions = mesh.attributes.POSITION.value;
+  points.forEach((point, k) =>
+    point.forEach((value, axis) => assert.ok(Math.abs(value - positions[3 * k + axis]) < 1e-6, `${k}: ${value}`)),
+  );
 
   const enu = await readLas(join(folder, 'enu.las'));
   checkPoints(enu).forEach((point, k) =>
@@ -123,7 +149,7 @@ try {
     count += tile.header.pointCount;
   }
   assert.equal(count, ply.length);
-  console.log(`${ply.length} points are the same to copc`);
+  console.log(`${ply.length} points are the same to copc and to @loaders.gl/las`);
 } finally {
   rmSync(folder, {recursive: true, force: true});
 }
