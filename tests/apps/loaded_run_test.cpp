@@ -86,7 +86,9 @@ TEST_F(ShownRunTest, TheRadiusThatWasConfiguredDecidesWhoWasNear) {
   days_.drive("a.db", 0, {0.0, 0.0, 0.0});
   {
     auto store = store::Store::open(days_.path("a.db"), AgentId::parse("r1").value()).value();
-    ASSERT_TRUE(output::keep_recipe(store, {.search_radius_m = 12.5}));
+    output::RecipeConfig config;
+    config.search_radius_m = 12.5;
+    ASSERT_TRUE(output::keep_recipe(store, config));
   }
   const auto run = open_one(days_.path("a.db"));
   ASSERT_TRUE(run) << run.error().message;

@@ -62,8 +62,8 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   EXPECT_EQ(state["alignments"][0]["status"], "used");
   EXPECT_EQ(state["alignments"][0]["poses"][0].size(), 7u);
   EXPECT_EQ(state["pairs"][0]["joined"], true);
-  EXPECT_EQ(state["logs"], nlohmann::json({"r2"}));
-  EXPECT_EQ(state["pairs"][0]["missing_logs"], nlohmann::json({"r1"}));
+  EXPECT_EQ(state["logs"], nlohmann::json::array({"r2"}));
+  EXPECT_EQ(state["pairs"][0]["missing_logs"], nlohmann::json::array({"r1"}));
   EXPECT_EQ(state["holdings"][0]["submaps"], 1);
 }
 
@@ -116,7 +116,8 @@ TEST(StateJson, frames_without_a_place_on_Earth_name_their_component) {
   fleet.alignment(node_id("r2", 0), node_id("r3", 0), AlignmentStatus::used);
   const auto state = nlohmann::json::parse(state_json(fleet.view));
   std::map<std::string, nlohmann::json> floating;
-  for (const auto& node : state["nodes"]) floating[node["id"]] = node.value("floating", nlohmann::json());
+  for (const auto& node : state["nodes"])
+    floating[node["id"].get<std::string>()] = node.value("floating", nlohmann::json());
   EXPECT_TRUE(floating["r1/0"].is_null()) << "it had GPS";
   EXPECT_TRUE(floating["r2/0"].is_number());
   EXPECT_EQ(floating["r2/1"], floating["r2/0"]);
