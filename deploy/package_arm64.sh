@@ -111,6 +111,9 @@ apt_arm64 install -s -qq "$root"/build/arm64/fleetmap*.deb > /dev/null  # all of
 make_root "$debian" "$root"/build/arm64/fleetmap_*_arm64.deb
 echo "a root of arm64: $(du -sm "$debian" | cut -f1) MB with all dependencies"
 cp /usr/bin/qemu-aarch64-static "$debian/usr/bin/"
+mkdir -p "$debian/dev"
+mknod -m 666 "$debian/dev/null" c 1 3
+mknod -m 666 "$debian/dev/urandom" c 1 9
 arm --version
 arm check-config /usr/share/fleetmap/config/agents/r1.yaml
 
