@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs with apt what is missing to build and test fleetmap on Debian 12. Needs root, directly or through sudo.
 #   deploy/install-dependencies.sh --browser    also Chromium, in which the monitor's page is tested
+#   deploy/install-dependencies.sh --arm64      also what deploy/package_arm64.sh needs
 set -euo pipefail
 
 packages=(
@@ -15,6 +16,8 @@ packages=(
 
 # The page of `fleetmap monitor` is bundled with npm; one that did not come from Debian serves as well.
 command -v npm >/dev/null || packages+=(npm)
+
+[ "${1:-}" != --arm64 ] || packages+=(g++-aarch64-linux-gnu qemu-user-static)
 
 missing=()
 want() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'install ok installed' || missing+=("$1"); }
