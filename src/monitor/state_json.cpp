@@ -32,8 +32,8 @@ double horizontal_sigma(const Matrix6d& covariance) {
   return std::sqrt(std::max(0.0, 0.5 * (covariance(0, 0) + covariance(1, 1))));
 }
 
-/// Of a node's place in ENU, horizontal: xx, xy, yy in m^2. `C` is of the right tangent, along the node's
-/// axes.
+/// Horizontal covariance of a node's place in ENU: xx, xy, yy in m^2. `C` is of the right tangent, along the
+/// node's axes.
 json covariance_json(const Pose& T_enu_node, const Matrix6d& C) {
   const Eigen::Matrix3d R = T_enu_node.linear();
   const Eigen::Matrix3d P = R * C.topLeftCorner<3, 3>() * R.transpose();

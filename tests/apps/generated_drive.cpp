@@ -21,7 +21,7 @@ namespace {
 constexpr Duration kSameScan = std::chrono::milliseconds(50);
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// Of the poses in `tum`: RMS after alignment, and as they are.
+/// RMS errors of the poses in `tum`: after alignment, and as they are.
 std::pair<double, double> errors_of(const std::filesystem::path& tum, const Recording& recording,
                                     const GeneratedRobot& robot) {
   const auto scans = std::ranges::count_if(

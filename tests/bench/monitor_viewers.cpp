@@ -15,9 +15,9 @@
 
 #include "agent/lapping_robot.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "live_monitor.hpp"
-#include "live_publisher.hpp"
 #include "monitor/browser.hpp"
+#include "page/live_monitor.hpp"
+#include "page/live_publisher.hpp"
 #include "store/items.hpp"
 
 namespace {

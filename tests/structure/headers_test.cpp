@@ -18,7 +18,8 @@ namespace {
 
 /// Sources without a header of their name, and the header that declares what they define.
 const std::map<std::string, std::string> kDeclaredElsewhere = {
-    {"src/apps/virtual_fleet_power.cpp", "src/apps/virtual_fleet.hpp"},     // more of class VirtualFleet
+    {"src/apps/twin/virtual_fleet_power.cpp",
+     "src/apps/twin/virtual_fleet.hpp"},                                    // more of class VirtualFleet
     {"src/bus/dds/introduced_robots.cpp", "src/bus/dds/radio_hellos.hpp"},  // more of class RadioLink::Hellos
 };
 

@@ -1,0 +1,77 @@
+#include "sensor_listener.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "fleetmap/ros_codec/frame_transforms.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
+#include "recordings/sample_player.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+Result<sensor::Scan> scan_in(const Bytes& cdr, ros_codec::PointsType type) {
+  auto decoded = ros_codec::decode_points(cdr, type);
+  if (!decoded) return tl::unexpected(std::move(decoded.error()));
+  return std::move(decoded->scan);
+}
+
+}  // namespace
+
+SensorListener::SensorListener(const agent::PerceptionConfig& config, bus::Bus& bus)
+    : config_(config), bus_(bus), check_({}, config), odometry_(config, bus, check_), mounts_(config) {
+  subscriptions_.push_back(bus.subscribe(ros_codec::topics::tf_static(), [this](const Bytes& cdr) {
+    const auto transforms = ros_codec::decode_transforms(cdr);
+    if (!transforms) return void(++refused_["/tf_static: " + transforms.error().message]);
+    mounts_.add(*transforms);
+  }));
+  const std::vector<bus::Topic> topics = sensor_topics(config.topics);
+  subscriptions_.push_back(bus.subscribe(topics[0], [this, name = topics[0].name](const Bytes& cdr) {
+    add(scan_in(cdr, config_.topics.points_type), cdr, name);
+  }));
+  listen<sensor::Imu>(topics[1]);
+  listen<sensor::Fix>(topics[2]);
+  listen<sensor::Wheel>(topics[3]);
+}
+
+std::vector<std::string> SensorListener::findings() {
+  std::vector<std::string> all = check_.take_warnings();
+  std::ranges::move(mounts_.take_warnings(), std::back_inserter(all));
+  for (const auto& [what, count] : refused_)
+    all.push_back(what + " (" + std::to_string(count) + " messages)");
+  std::ranges::move(odometry_.failures(), std::back_inserter(all));
+  return all;
+}
+
+template <class T>
+void SensorListener::listen(const bus::Topic& topic) {
+  subscriptions_.push_back(bus_.subscribe(
+      topic, [this, name = topic.name](const Bytes& cdr) { add(ros_codec::decode<T>(cdr), cdr, name); }));
+}
+
+template <class T>
+void SensorListener::add(Result<T> decoded, const Bytes& cdr, const std::string& topic) {
+  if (!decoded) {
+    ++refused_[topic + ": " + decoded.error().message];
+    return;
+  }
+  recording::Sample sample(std::move(*decoded));
+  streams_.add(sample);
+  const auto source = static_cast<sensor::Source>(sample.index());
+  if (!place(source, ros_codec::frame_id_of(cdr).value_or(""))) return;
+  if (check_.admit(sample, bus_.now())) odometry_.add(std::move(sample));
+}
+
+bool SensorListener::place(sensor::Source source, const std::string& frame_id) {
+  const auto state = mounts_.on_message(source, frame_id, bus_.now());
+  if (state != agent::SensorMounts::State::kDecided) return state == agent::SensorMounts::State::kKnown;
+  mounts_.apply_to(config_, source);
+  check_.set_mounts(config_);
+  odometry_.set_mounts(config_);
+  return true;
+}
+
+}  // namespace fleetmap::apps

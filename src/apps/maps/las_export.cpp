@@ -1,0 +1,76 @@
+#include "las_export.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <utility>
+
+#include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/las_map.hpp"
+#include "version.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+void print_las(std::ostream& out, const output::WrittenLas& written, const std::string& path,
+               const output::MapCrs& crs, const LasOptions& options) {
+  out << path << ": ";
+  if (options.tile_m) out << written.files << " files of " << *options.tile_m << " m, ";
+  out << written.points << " points from " << written.outline.submaps << " submaps\n" << crs.text() << '\n';
+  if (crs.name() != "enu") {
+    out << "Scale at the origin: " << std::fixed << std::setprecision(6) << crs.scale()
+        << " (lengths in it over lengths on the ellipsoid).\n";
+  }
+  if (written.left_out > 0)
+    std::cerr << written.left_out << " points are not finite or too far away and are left out\n";
+  name_unreadable(written.outline);
+}
+
+}  // namespace
+
+Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace& place,
+                              const std::string& store) {
+  const auto request = output::parse_crs(options.crs.value_or("utm"));
+  if (!request) return tl::unexpected(request.error());
+  std::optional<Geoid> geoid;
+  if (options.geoid) {
+    auto loaded = Geoid::load(*options.geoid);
+    if (!loaded) return tl::unexpected(loaded.error());
+    geoid = std::move(*loaded);
+  }
+  auto crs = output::MapCrs::of(*request, place, std::move(geoid));
+  if (!crs) return failure(store + ": " + crs.error().message);
+  return crs;
+}
+
+void name_parts_apart(const output::MapParts& parts) {
+  for (const output::MapPart& part : parts.apart) {
+    std::cerr << "not in it, for nobody knows where to lay them:";
+    for (const graph::FrameId& frame : part.frames) std::cerr << ' ' << graph::to_string(frame);
+    std::cerr << '\n';
+  }
+}
+
+bool wants_las(const std::string& path, const LasOptions& options) {
+  std::string extension = std::filesystem::path(path).extension();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return options.tile_m || extension == ".las";
+}
+
+Status export_las(StoredMap& map, const std::string& store, const std::string& path,
+                  const LasOptions& options, std::ostream& out) {
+  const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
+  const auto crs = crs_of(options, {map.recipe.origin, parts.main.georeferenced}, store);
+  if (!crs) return tl::unexpected(crs.error());
+  const output::LasMapConfig config{path, options.tile_m, std::string("fleetmap ") + kVersion};
+  const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);
+  if (!written) return tl::unexpected(written.error());
+  print_las(out, *written, path, *crs, options);
+  name_parts_apart(parts);
+  return {};
+}
+
+}  // namespace fleetmap::apps

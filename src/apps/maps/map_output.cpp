@@ -1,0 +1,95 @@
+#include "map_output.hpp"
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <utility>
+
+#include "elevation_export.hpp"
+#include "las_export.hpp"
+#include "map_exports.hpp"
+#include "map_info.hpp"
+#include "store_summary.hpp"
+#include "stored_map.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+Result<StoredMap> open(const MapOptions& options) {
+  MapSelection selection;
+  if (const auto& deg = options.origin_deg; !deg.empty())
+    selection.origin = geo_point_from_degrees(deg[0], deg[1], deg[2]);
+  selection.voxel_m = options.voxel;
+  auto without = robots_named(options.without);
+  if (!without) return tl::unexpected(without.error());
+  selection.without = std::move(*without);
+  return open_map(options.store, selection);
+}
+
+CommandResult<ExitCode> print_json(const MapOptions& options, std::ostream& out) {
+  if (!options.without.empty()) return exit_with(kUsage, {"--json lists by robot, so it takes no --without"});
+  if (const Status meant = check_store(options.store); !meant) return exit_with(kFailed, meant.error());
+  const auto store = store::Store::open_read_only(options.store);
+  if (!store) return exit_with(kFailed, store.error());
+  out << summary_of(*store).dump(2) << '\n';
+  return kDone;
+}
+
+CommandResult<ExitCode> print_written(const Result<std::string>& written, std::ostream& out) {
+  if (!written) return exit_with(kFailed, written.error());
+  out << *written << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+CommandResult<ExitCode> print_map_info(const MapOptions& options, std::ostream& out) {
+  if (options.json) return print_json(options, out);
+  const auto map = open(options);
+  if (!map) return exit_with(kFailed, map.error());
+  print_info(out, *map);
+  return kDone;
+}
+
+CommandResult<ExitCode> write_map(const MapOptions& options, std::ostream& out) {
+  const bool rasters = options.format == "geotiff";
+  const bool las = !rasters && wants_las(options.out, options.las);
+  if (rasters && options.las.tile_m) return exit_with(kUsage, {"--tile is of LAS; a GeoTIFF is one raster"});
+  if (options.cell_m && !rasters) return exit_with(kUsage, {"--cell is of rasters: add --format geotiff"});
+  if (options.las.any() && !las && !rasters)
+    return exit_with(
+        kUsage, {options.out +
+                 ": --crs and --geoid are of LAS and GeoTIFF: end it with .las, or add --format geotiff"});
+  auto map = open(options);
+  if (!map) return exit_with(kFailed, map.error());
+  if (const Status valid = map->recipe.merge.validate(); !valid) return exit_with(kUsage, valid.error());
+  if (!las && !rasters) return print_written(export_points(*map, options.out), out);
+  const Status written = rasters ? export_elevation(*map, options, out)
+                                 : export_las(*map, options.store, options.out, options.las, out);
+  return written ? CommandResult<ExitCode>(kDone) : exit_with(kFailed, written.error());
+}
+
+CommandResult<ExitCode> write_tracks(const MapOptions& options, std::ostream& out) {
+  const std::optional<std::string>& geoid = options.las.geoid;
+  if (geoid && !options.out.ends_with(".gpx"))
+    return exit_with(kUsage, {"--geoid is of GPX; heights of GeoJSON are above the ellipsoid (RFC 7946)"});
+  const auto map = open(options);
+  if (!map) return exit_with(kFailed, map.error());
+  return print_written(export_tracks(*map, options.store, options.out, geoid), out);
+}
+
+CommandResult<ExitCode> write_graph(const MapOptions& options, std::ostream& out) {
+  const auto map = open(options);
+  return map ? print_written(export_graph(*map, options.out), out) : exit_with(kFailed, map.error());
+}
+
+CommandResult<ExitCode> draw_map(const MapOptions& options, std::ostream& out) {
+  auto map = open(options);
+  if (!map) return exit_with(kFailed, map.error());
+  const auto files = export_pictures(*map, options.store, options.out);
+  if (!files) return exit_with(kFailed, files.error());
+  for (const std::filesystem::path& file : *files) out << file.string() << '\n';
+  return kDone;
+}
+
+}  // namespace fleetmap::apps

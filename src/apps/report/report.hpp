@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fleetmap/agent/agent.hpp"
+#include "fleetmap/bus/stall_detector.hpp"
+#include "fleetmap/output/results.hpp"
+#include "run_profile.hpp"
+#include "twin/virtual_fleet.hpp"
+
+namespace fleetmap::apps {
+
+/// A sentence for the last lines of a run; empty if every scan fitted the local map.
+std::string lost_ways(const odometry::LoamCounters& odometry);
+
+/// The program and its settings, as a report names them.
+struct RunSettings {
+  std::string version;
+  std::string configuration;     ///< file, or the recordings
+  std::vector<std::string> set;  ///< key=value
+};
+/// report.json and report.html of a fleet's run. Sizes in bytes, times in seconds.
+Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, const RunProfile& profile,
+                    const RunSettings& settings);
+/// Access to the radios.
+struct RadioAccess {
+  bool keys = false;                 ///< else anyone
+  std::vector<std::string> refused;  ///< robots with which no exchange was possible, and why
+};
+/// The words for it in report.json and on the monitor's page.
+const char* who_may_join(bool keys);
+/// report.json and report.html of one agent alone, in its folder; `results` null: it has no map. `stalls` of
+/// its bus's threads.
+Status write_report(const agent::Agent& agent, const output::Results* results, const RadioAccess& access,
+                    const std::vector<bus::StallCounters>& stalls, const RunSettings& settings);
+
+}  // namespace fleetmap::apps
