@@ -1,5 +1,5 @@
-// node script_functions.mjs SOURCES PAGE: functions of the page and of the tests that Node runs stay so short that they are
-// read at once. PAGE: the folder with the page's packages, of which TypeScript parses the files.
+// node script_functions.mjs SOURCES PAGE: functions of the page and of the tests that Node runs stay so short that they
+// are read at once. PAGE: the folder with the page's packages, of which TypeScript parses the files.
 import assert from 'node:assert/strict';
 import {readdirSync, readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
