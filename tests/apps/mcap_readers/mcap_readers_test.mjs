@@ -35,6 +35,7 @@ if (npm.status !== 0) {
 const require = createRequire(resolve(installed, 'package.json'));
 const {McapIndexedReader, McapStreamReader} = require('@mcap/core');
 const {parse} = require('@foxglove/rosmsg');
+const {ros2humble} = require('@foxglove/rosmsg-msgs-common');
 const {MessageReader} = require('@foxglove/rosmsg2-serialization');
 const {crc32: crcOf} = createRequire(require.resolve('@mcap/core'))('@foxglove/crc');
 const zstd = require('@foxglove/wasm-zstd');
@@ -53,6 +54,21 @@ function run(...args) {
   assert.equal(done.status, 0, `${args.join(' ')}: ${done.stderr}`);
 }
 
+/** Members of a type, without constants; the first of a schema's definitions has no name. */
+const members = ({definitions}) =>
+  definitions
+    .filter(({isConstant}) => !isConstant)
+    .map(({name, type, isArray, arrayLength}) => `${type}${isArray ? `[${arrayLength ?? ''}]` : ''} ${name}`);
+
+/** Compares names, types and order of all members with those of ROS 2 Humble. */
+function checkSchema(name, definitions) {
+  for (const definition of definitions) {
+    const known = definition.name ?? name.replace('/msg/', '/');
+    assert.ok(ros2humble[known], known);
+    assert.deepEqual(members(definition), members(ros2humble[known]), known);
+  }
+}
+
 /** Durability that a rosbag2 player offers: 1 transient local, 2 volatile. */
 function durability(channel) {
   const profile = channel.metadata.get('offered_qos_profiles');
@@ -60,7 +76,7 @@ function durability(channel) {
   return Number(profile.match(/durability: (\d)/)[1]);
 }
 
-/** Reads by the index; returns the number of messages by topic. */
+/** Reads by the index; returns the number of messages by topic, and the offset of the last byte of a chunk. */
 async function readIndexed(bytes, compression) {
   const readable = {
     size: async () => BigInt(bytes.length),
@@ -75,6 +91,7 @@ async function readIndexed(bytes, compression) {
   for (const schema of reader.schemasById.values()) {
     assert.equal(schema.encoding, 'ros2msg', schema.name);
     const definitions = parse(new TextDecoder().decode(schema.data), {ros2: true});
+    checkSchema(schema.name, definitions);
     decoders.set(schema.id, new MessageReader(definitions));
   }
   for (const channel of reader.channelsById.values()) {
@@ -87,14 +104,15 @@ async function readIndexed(bytes, compression) {
     const channel = reader.channelsById.get(message.channelId);
     last.set(channel.topic, decoders.get(channel.schemaId).readMessage(message.data));
     counts.set(channel.topic, (counts.get(channel.topic) ?? 0) + 1);
-    assert.equal(message.sequence, counts.get(channel.topic), channel.topic);
+    assert.ok(message.sequence > 0, channel.topic);
   }
   for (const [id, channel] of reader.channelsById)
     assert.equal(reader.statistics.channelMessageCounts.get(id), BigInt(counts.get(channel.topic) ?? 0));
   assert.equal(reader.statistics.chunkCount, reader.chunkIndexes.length);
   assert.ok(reader.summaryOffsetsByOpcode.size >= 4);
   checkContent(last);
-  return counts;
+  const {chunkStartOffset, chunkLength} = reader.chunkIndexes[reader.chunkIndexes.length >> 1];
+  return {counts, inChunk: Number(chunkStartOffset + chunkLength) - 1};
 }
 
 function checkContent(last) {
@@ -144,16 +162,16 @@ try {
       compression,
     );
     const bytes = readFileSync(join(bag, 'r1/r1_0.mcap'));
-    const counts = await readIndexed(bytes, compression === 'none' ? '' : compression);
+    const {counts, inChunk} = await readIndexed(bytes, compression === 'none' ? '' : compression);
     const all = [...counts.values()].reduce((sum, count) => sum + count, 0);
     assert.deepEqual(readStream(bytes), {messages: all, done: true});
     first ??= counts;
     assert.deepEqual(counts, first);
     const damaged = Buffer.from(bytes);
-    damaged[bytes.length >> 1] ^= 1;
+    damaged[inChunk] ^= 1;
     assert.throws(() => readStream(damaged), `${compression}: damage is found`);
     const cut = readStream(bytes.subarray(0, (bytes.length * 3) >> 2));
-    assert.ok(!cut.done && cut.messages > all / 2, `${compression}: ${cut.messages} of ${all}`);
+    assert.ok(!cut.done && cut.messages > all / 4, `${compression}: ${cut.messages} of ${all}`);
     const metadata = readFileSync(join(bag, 'r1/metadata.yaml'), 'utf8');
     for (const line of [
       'version: 5',
