@@ -6,6 +6,7 @@ import type {Place} from './picking';
 
 const kSvg = 'http://www.w3.org/2000/svg';
 const kLabel_px = 62; // half of the longest label
+const kLine_px = 15;
 const kCorners = 32; // of an ellipse
 const k95 = 2.4477; // sigmas of two dimensions that hold 95 %
 
@@ -69,22 +70,29 @@ export class RobotMarks {
     if (!this.shown) return this.overlay.replaceChildren();
     const places = new Map(this.marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
     const links = this.now && this.live ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
-    const shapes: SVGElement[] = [];
+    const lines: SVGElement[] = [],
+      words: SVGElement[] = [],
+      taken: Box[] = [];
+    for (const [robot, place] of places)
+      if (place) taken.push(boxOf(robot, place.x + 12 + 3.5 * robot.length, place.y - 10));
     const self = places.get(this.live?.self ?? '');
     for (const {robot, quality, text} of links) {
       const other = places.get(robot);
       if (!self || !other) continue;
       const line = {x1: self.x, y1: self.y, x2: other.x, y2: other.y};
-      shapes.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
-      if (Math.hypot(other.x - self.x, other.y - self.y) > 90)
-        shapes.push(label(text, this.within((self.x + other.x) / 2), (self.y + other.y) / 2 - 5, 'link'));
+      lines.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
+      const box = boxOf(text, this.within((self.x + other.x) / 2), (self.y + other.y) / 2 - 5);
+      if (Math.hypot(other.x - self.x, other.y - self.y) < kLabel_px || taken.some((one) => overlap(one, box)))
+        continue;
+      taken.push(box);
+      words.push(label(text, box.x, box.y, 'link'));
     }
     const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.robot));
-    for (const mark of this.marks) {
+    const robots = this.marks.flatMap((mark) => {
       const place = places.get(mark.robot);
-      if (place) shapes.push(...this.markOf(mark, place, silent.has(mark.robot)));
-    }
-    this.overlay.replaceChildren(...shapes);
+      return place ? this.markOf(mark, place, silent.has(mark.robot)) : [];
+    });
+    this.overlay.replaceChildren(...lines, ...words, ...robots);
   }
 
   /** A place for the middle of a label that the map's sides do not cut. */
@@ -131,6 +139,16 @@ export function ellipseOf([xx, xy, yy]: [number, number, number]): [number, numb
     return [along * Math.cos(angle) - across * Math.sin(angle), along * Math.sin(angle) + across * Math.cos(angle)];
   });
 }
+
+/** The middle of a label's foot, and half of its width, pixels. */
+interface Box {
+  x: number;
+  y: number;
+  half: number;
+}
+
+const boxOf = (text: string, x: number, y: number): Box => ({x, y, half: 3.5 * text.length});
+const overlap = (a: Box, b: Box) => Math.abs(a.x - b.x) < a.half + b.half && Math.abs(a.y - b.y) < kLine_px;
 
 function label(text: string, x: number, y: number, kind: string): SVGElement {
   return shape('text', {x: x.toFixed(1), y: y.toFixed(1), class: kind}, text);

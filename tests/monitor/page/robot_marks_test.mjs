@@ -51,6 +51,14 @@ marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: [{link: 'long_range'
 assert.equal(all('line.link.silent').length, 1);
 assert.deepEqual(labels(), ['r1', 'r2 (lost)']);
 
+// Words that would lie on others are left out; their lines stay.
+const beside = state({nodes: [node('r1', 0), node('r2', 0, [20, 20, 0]), node('r3', 0, [20, 20.5, 0])]});
+const said = [{link: 'long_range', seconds_ago: 1}];
+marks.show(beside, Infinity);
+marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: said}), robotNow('r3', {heard: said})]));
+assert.deepEqual([all('line.link').length, all('text.link').length], [2, 1]);
+marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: [{link: 'long_range', seconds_ago: 90}]})]));
+
 // At an earlier time robots are where they were; links are of the present.
 marks.show(fleet, 3);
 assert.deepEqual(labels(), ['r1']);
