@@ -10,7 +10,7 @@
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/ros_codec/frame_transforms.hpp"
-#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/points_type.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "fleetmap/sensor/ground_plane.hpp"
@@ -37,6 +37,7 @@ Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceive
       on_perceived_(std::move(on_perceived)),
       on_scan_(std::move(on_scan)),
       loam_(config.odometry, config.lidar),
+      turns_(config.odometry.T_base_lidar.linear(), config.odometry.q_base_imu),
       ekf_(config.localization),
       mounts_(config),
       scans_(config.waiting_scans),
@@ -124,7 +125,10 @@ bool Perception::placed(sensor::Source source, const Bytes& cdr) {
   ekf_.set_mounting(config_.localization.mounting);
   health_.set_imu_rotation(config_.odometry.q_base_imu);
   if (source == sensor::Source::kImu) new_q_base_imu_ = config_.odometry.q_base_imu;
-  if (source == sensor::Source::kLidar) loam_ = odometry::Loam(config_.odometry, config_.lidar);
+  if (source == sensor::Source::kLidar) {
+    loam_ = odometry::Loam(config_.odometry, config_.lidar);
+    turns_ = {config_.odometry.T_base_lidar.linear(), config_.odometry.q_base_imu};
+  }
   return true;
 }
 
@@ -138,7 +142,8 @@ void Perception::on_scan(const Bytes& cdr) {
   ++counters_.scans;
   if (!placed(sensor::Source::kLidar, cdr)) return;
   // One without a stamp is refused when it is decoded.
-  if (const auto stamp = ros_codec::stamp_of_scan(cdr)) watch_clock(sensor::Source::kLidar, *stamp);
+  if (const auto stamp = ros_codec::stamp_of_points(cdr, config_.topics.points_type))
+    watch_clock(sensor::Source::kLidar, *stamp);
   if (clock_offsets_.unclear(sensor::Source::kLidar)) return void(++counters_.unclear_stamps);
   if (on_scan_) on_scan_();
   scans_.push({last_scan_, cdr});
@@ -159,29 +164,39 @@ void Perception::start_next() {
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
   job->q_base_imu.swap(new_q_base_imu_);
-  const bool taken =
-      bus_.offload(bus::Lane::kPerception,
-                   {"odometry",
-                    [this, job] {
-                      const double start = thread_cpu_seconds();
-                      if (job->q_base_imu) loam_.set_imu_rotation(*job->q_base_imu);
-                      for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
-                      for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
-                      auto decoded = ros_codec::decode_points(job->scan, config_.topics.points_type);
-                      if (decoded) {
-                        decoded->scan.stamp += job->clock_correction;
-                        job->times_in_microseconds = decoded->times_in_microseconds;
-                        job->sweep = {decoded->scan.stamp, sensor::sweep_of(decoded->scan)};
-                        if (job->find_ground)
-                          job->ground = sensor::ground_normal(decoded->scan, config_.odometry.T_base_lidar);
-                      }
-                      job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
-                      job->cpu_seconds = thread_cpu_seconds() - start;
-                    }},
-                   [this, job] { finish(*job); });
+  const bool taken = bus_.offload(bus::Lane::kPerception, {"odometry", [this, job] { work_on(*job); }},
+                                  [this, job] { finish(*job); });
   if (taken) return;
   busy_ = false;
   warn("no thread for odometry", "a scan was dropped");
+}
+
+void Perception::work_on(Job& job) {
+  const double start = thread_cpu_seconds();
+  if (job.q_base_imu) {
+    loam_.set_imu_rotation(*job.q_base_imu);
+    turns_.set_imu_rotation(*job.q_base_imu);
+  }
+  for (const sensor::Imu& imu : job.imu) loam_.add_imu(imu);
+  for (const sensor::Wheel& wheel : job.wheel) loam_.add_wheel(wheel);
+  auto decoded = ros_codec::decode_points(job.scan, config_.topics.points_type);
+  if (decoded) {
+    decoded->scan.stamp += job.clock_correction;
+    job.times_in_microseconds = decoded->times_in_microseconds;
+    job.sweep = {decoded->scan.stamp, sensor::sweep_of(decoded->scan)};
+    if (job.find_ground) job.ground = sensor::ground_normal(decoded->scan, config_.odometry.T_base_lidar);
+    check_turns(job, decoded->scan);
+  }
+  job.update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
+  job.cpu_seconds = thread_cpu_seconds() - start;
+}
+
+void Perception::check_turns(Job& job, const sensor::Scan& scan) {
+  if (turns_.decided()) return;
+  for (const sensor::Imu& imu : job.imu) turns_.add(imu);
+  for (const sensor::Wheel& wheel : job.wheel) turns_.add(wheel);
+  turns_.add(scan);
+  job.turns_finding = turns_.finding();
 }
 
 void Perception::finish(Job& job) {
@@ -190,6 +205,7 @@ void Perception::finish(Job& job) {
   for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
   if (job.sweep) health_.check_scan(job.sweep->first, job.sweep->second);
   if (job.ground) health_.check_ground(*job.ground);
+  if (job.turns_finding) health_.add_finding(std::move(*job.turns_finding));
   if (job.update)
     health_.check_motion(job.update->stamp,
                          job.update->lost ? std::nullopt : std::optional(job.update->T_odom_base));

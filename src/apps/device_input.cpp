@@ -35,7 +35,7 @@ void DeviceInput::run(const std::stop_token& stop) {
     auto stream = DeviceStream::open(place_);
     const Error error = stream ? serve(*stream, stop) : stream.error();
     if (stop.stop_requested()) return;
-    say(error.message + "; tried again every second");
+    say(error.message, "; tried again every second");
     wait(stop);
   }
 }
@@ -56,12 +56,12 @@ Error DeviceInput::serve(DeviceStream& stream, const std::stop_token& stop) {
     if (*size > 0) {
       if (!std::exchange(any, true) || moment - heard > kSilence) {
         spdlog::info("{}: heard", name);
-        said_.clear();
+        hear();
       }
       heard = moment;
       handlers_.on_bytes(ByteView(buffer).first(*size), system_now());
     } else if (moment - heard > kSilence) {
-      say(name + ": sends nothing; check its power, its settings and the baud rate");
+      say(name + ": sends nothing; check its power, its settings and the baud rate", "");
     }
     if (!handlers_.request || !any || moment - asked < kRequestPeriod) continue;
     asked = moment;
@@ -70,8 +70,19 @@ Error DeviceInput::serve(DeviceStream& stream, const std::stop_token& stop) {
   return {};
 }
 
-void DeviceInput::say(const std::string& what) {
-  if (what != std::exchange(said_, what)) spdlog::warn("{}", what);
+void DeviceInput::say(const std::string& trouble, const char* then) {
+  const std::scoped_lock lock(mutex_);
+  if (trouble != std::exchange(trouble_, trouble)) spdlog::warn("{}{}", trouble, then);
+}
+
+void DeviceInput::hear() {
+  const std::scoped_lock lock(mutex_);
+  trouble_.clear();
+}
+
+std::string DeviceInput::trouble() const {
+  const std::scoped_lock lock(mutex_);
+  return trouble_;
 }
 
 }  // namespace fleetmap::apps

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -23,17 +24,21 @@ class DeviceInput {
     std::function<Bytes(Stamp)> request{};
   };
   DeviceInput(agent::DevicePlace place, Handlers handlers);
+  /// The reason why the device is not heard, with the remedy; empty while it is heard or nothing is known.
+  std::string trouble() const;
 
  private:
   void run(const std::stop_token& stop);
   /// Until the device is gone.
   Error serve(DeviceStream& stream, const std::stop_token& stop);
-  /// Logs it unless it is what was logged last.
-  void say(const std::string& what);
+  /// Keeps `trouble`, and logs it with `then` unless it is that of before.
+  void say(const std::string& trouble, const char* then);
+  void hear();
 
   agent::DevicePlace place_;
   Handlers handlers_;
-  std::string said_;
+  mutable std::mutex mutex_;
+  std::string trouble_;  ///< guarded by mutex_
   std::jthread thread_;
 };
 

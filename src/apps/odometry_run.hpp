@@ -1,37 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "fleetmap/agent/perception.hpp"
+#include "fleetmap/agent/perception_config.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/odometry/loam.hpp"
-#include "fleetmap/odometry/way_check.hpp"
-#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
+#include "scan_odometry.hpp"
 
 namespace fleetmap::apps {
-
-/// Odometry alone over a recording, with the time that each scan took.
-struct OdometryRun {
-  output::Trajectory poses;
-  std::vector<double> wall_ms;
-  double cpu_s = 0.0;
-  std::size_t refused = 0;
-  std::string first_refusal;
-  std::optional<Stamp> first_lost;
-  odometry::LoamCounters counters;
-  odometry::LocalMapSize map;  ///< when it was largest
-  std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
-  odometry::WayCheck way;
-  std::vector<std::string> findings;  ///< about clocks, units, rates, mounts and motions
-
-  /// True if the odometry never restarted its map and the trajectory has no warnings.
-  bool kept_its_way() const { return counters.map_restarts == 0 && way.warnings().empty(); }
-};
 
 /// Called for samples of a recording, if they are set.
 struct SampleObservers {

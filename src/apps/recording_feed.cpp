@@ -50,7 +50,7 @@ Result<std::unique_ptr<RecordingFeed>> RecordingFeed::create(
 }
 
 Status RecordingFeed::find_origin(const config::RecordingConfig& recording) {
-  auto reader = recording::open(recording.path, recording.reader);
+  auto reader = recording::open(recording.path, recording.reader, recording::ScanContent::kStampOnly);
   if (!reader) return tl::unexpected(reader.error());
   std::deque<GeoPoint> fixes;
   while (!origin_) {

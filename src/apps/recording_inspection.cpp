@@ -21,9 +21,7 @@ CommandResult<ExitCode> inspect_recording(const RecordingOptions& options, std::
   if (!done) return exit_with(kFailed, done.error());
   std::vector<std::string> findings = input->prepared.findings;
   std::ranges::copy(done->findings, std::back_inserter(findings));
-  if (!done->kept_its_way()) findings.emplace_back("odometry: it lost its way; see the findings before this");
-  if (done->poses.empty() && streams.scans() > 0)
-    findings.push_back("odometry: no scan could be used: " + done->first_refusal);
+  std::ranges::move(done->failures(streams.scans()), std::back_inserter(findings));
   streams.print(out);
   for (const std::string& mount : input->prepared.mounts) out << mount << '\n';
   for (const auto& [name, count] : input->reader->counters().named()) {

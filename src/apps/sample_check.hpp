@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/agent/perception_config.hpp"
@@ -25,6 +26,8 @@ class SampleCheck {
   bool admit(recording::Sample& sample, std::optional<Stamp> recorded);
   /// Compares the other sensors with the odometry's motion.
   void add_motion(const odometry::OdometryUpdate& update);
+  /// Adds the finding of a check that runs elsewhere to the warnings, once.
+  void add_finding(std::string finding) { health_.add_finding(std::move(finding)); }
   /// Findings about clocks and values since the last call.
   std::vector<std::string> take_warnings();
   const sensor::SensorHealth& health() const { return health_; }

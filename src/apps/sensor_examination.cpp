@@ -1,9 +1,12 @@
 #include "sensor_examination.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <memory>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -19,6 +22,8 @@
 
 namespace fleetmap::apps {
 namespace {
+
+constexpr Duration kLastScan = std::chrono::seconds(2);
 
 CommandResult<config::RobotConfig> robot_of(const DoctorOptions& options) {
   const auto overrides = parse_overrides(options.set);
@@ -37,19 +42,45 @@ bus::DdsBusConfig listener_dds(const config::RobotConfig& robot) {
   return dds;
 }
 
+/// gpsd serves the agent and this program: fixes that it sends here stay away from the agent's topic, where
+/// each would come twice.
+agent::PerceptionConfig with_own_fixes(agent::PerceptionConfig config) {
+  if (config.devices.gpsd) config.topics.fix = "rt/fleetmap/doctor/fix";
+  return config;
+}
+
+/// Reasons why no fix is heard of a GPS that this program reads itself; empty if one is.
+std::vector<std::string> device_findings(const std::vector<std::unique_ptr<DeviceInput>>& devices,
+                                         const agent::DeviceConfig& config, std::size_t fixes) {
+  std::vector<std::string> findings;
+  const bool expected = config.nmea || config.gpsd || (config.mavlink && config.mavlink_gps);
+  if (fixes > 0 || !expected) return findings;
+  for (const auto& device : devices) {
+    if (const std::string trouble = device->trouble(); !trouble.empty())
+      findings.push_back("no fix is heard: " + trouble);
+  }
+  if (config.gpsd && findings.empty()) {
+    findings.push_back(fmt::format(
+        "no fix is heard: gpsd at {} sends no position (TPV with a time). Connect a receiver to it (gpsd -n "
+        "DEVICE; cgps shows what it receives), under open sky",
+        agent::to_string(*config.gpsd)));
+  }
+  return findings;
+}
+
 /// Publishes what the robot's devices send, which the listener receives, until the time is up or a signal
-/// comes.
-void listen(const agent::PerceptionConfig& config, bus::DdsBus& bus, double seconds, std::ostream& out) {
+/// comes. Returns what is wrong with them.
+std::vector<std::string> listen(const agent::PerceptionConfig& config, bus::DdsBus& bus,
+                                const SensorListener& listener, double seconds, std::ostream& out) {
   // Its agent receives there if it runs, and publishes the scans.
   const auto lidar = publish_lidar(config, bus);
   if (!lidar) spdlog::info("{}", lidar.error().message);
-  // gpsd would serve the agent and this program, so that each fix came twice.
-  agent::PerceptionConfig perception = config;
-  if (perception.devices.gpsd) spdlog::info("gps.gpsd: heard where the agent runs");
-  perception.devices.gpsd.reset();
-  const auto devices = publish_devices(perception, bus);
-  out << "listening for " << seconds << " s; drive a turn, so that units of turn rates show\n";
+  const auto devices = publish_devices(config, bus);
+  out << "listening for " << seconds
+      << " s; drive 10 m and a turn to either side, so that units and motions show\n";
   bus.run_until([] { return stop_on_signals().load(); }, from_seconds(seconds));
+  bus.run_until([&] { return listener.idle(); }, kLastScan);
+  return device_findings(devices, config.devices, listener.streams().fixes());
 }
 
 std::vector<std::string> all_findings(SensorListener& listener, const config::RobotConfig& robot) {
@@ -73,11 +104,14 @@ CommandResult<ExitCode> examine_sensors(const DoctorOptions& options, std::ostre
   if (!robot) return tl::unexpected(robot.error());
   auto bus = join_dds(listener_dds(*robot));
   if (!bus) return exit_with(kBadConfiguration, bus.error());
-  SensorListener listener(robot->agent.perception, **bus);
-  listen(robot->agent.perception, **bus, options.seconds, out);
+  const agent::PerceptionConfig perception = with_own_fixes(robot->agent.perception);
+  SensorListener listener(perception, **bus);
+  const auto of_devices = listen(perception, **bus, listener, options.seconds, out);
   listener.streams().print(out);
   for (const std::string& mount : listener.mounts()) out << mount << '\n';
-  const std::vector<std::string> findings = all_findings(listener, *robot);
+  std::vector<std::string> findings = all_findings(listener, *robot);
+  std::ranges::copy(of_devices, std::back_inserter(findings));
+  for (const std::string& note : listener.notes()) out << note << '\n';
   for (const std::string& finding : findings) out << "- " << finding << '\n';
   if (findings.empty()) out << "nothing found\n";
   return findings.empty() ? kDone : kFailed;

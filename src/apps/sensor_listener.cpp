@@ -22,7 +22,7 @@ Result<sensor::Scan> scan_in(const Bytes& cdr, ros_codec::PointsType type) {
 }  // namespace
 
 SensorListener::SensorListener(const agent::PerceptionConfig& config, bus::Bus& bus)
-    : config_(config), bus_(bus), check_({}, config), mounts_(config) {
+    : config_(config), bus_(bus), check_({}, config), odometry_(config, bus, check_), mounts_(config) {
   subscriptions_.push_back(bus.subscribe(ros_codec::topics::tf_static(), [this](const Bytes& cdr) {
     const auto transforms = ros_codec::decode_transforms(cdr);
     if (!transforms) return void(++refused_["/tf_static: " + transforms.error().message]);
@@ -42,6 +42,7 @@ std::vector<std::string> SensorListener::findings() {
   std::ranges::move(mounts_.take_warnings(), std::back_inserter(all));
   for (const auto& [what, count] : refused_)
     all.push_back(what + " (" + std::to_string(count) + " messages)");
+  std::ranges::move(odometry_.failures(), std::back_inserter(all));
   return all;
 }
 
@@ -61,7 +62,7 @@ void SensorListener::add(Result<T> decoded, const Bytes& cdr, const std::string&
   streams_.add(sample);
   const auto source = static_cast<sensor::Source>(sample.index());
   if (!place(source, ros_codec::frame_id_of(cdr).value_or(""))) return;
-  check_.admit(sample, bus_.now());
+  if (check_.admit(sample, bus_.now())) odometry_.add(std::move(sample));
 }
 
 bool SensorListener::place(sensor::Source source, const std::string& frame_id) {
@@ -69,6 +70,7 @@ bool SensorListener::place(sensor::Source source, const std::string& frame_id) {
   if (state != agent::SensorMounts::State::kDecided) return state == agent::SensorMounts::State::kKnown;
   mounts_.apply_to(config_, source);
   check_.set_mounts(config_);
+  odometry_.set_mounts(config_);
   return true;
 }
 

@@ -7,12 +7,13 @@
 #include "fleetmap/agent/perception_config.hpp"
 #include "fleetmap/agent/sensor_mounts.hpp"
 #include "fleetmap/bus/bus.hpp"
+#include "live_odometry.hpp"
 #include "sample_check.hpp"
 #include "stream_summary.hpp"
 
 namespace fleetmap::apps {
 
-/// Listens to all sensors of a robot, sums up their streams and checks their samples.
+/// Listens to all sensors of a robot, sums up their streams, checks their samples and compares their motions.
 class SensorListener {
  public:
   /// `bus` outlives this.
@@ -24,6 +25,10 @@ class SensorListener {
   /// Sentences on what is wrong with the samples that came since the last call, and on all that could not be
   /// decoded.
   std::vector<std::string> findings();
+  /// Sentences on what was not checked, and why.
+  std::vector<std::string> notes() const { return odometry_.notes(); }
+  /// No work is under way.
+  bool idle() const { return odometry_.idle(); }
 
  private:
   template <class T>
@@ -36,6 +41,7 @@ class SensorListener {
   agent::PerceptionConfig config_;
   bus::Bus& bus_;
   SampleCheck check_;
+  LiveOdometry odometry_;
   agent::SensorMounts mounts_;
   StreamSummary streams_;
   std::map<std::string, std::size_t> refused_;  ///< by reason

@@ -17,6 +17,7 @@ class StreamSummary {
   /// A line a sensor.
   void print(std::ostream& out) const;
   std::size_t scans() const { return streams_.front().count; }
+  std::size_t fixes() const { return streams_[2].count; }
 
  private:
   struct Stream {

@@ -8,7 +8,7 @@
 #include "bag_topics.hpp"
 #include "fleetmap/core/paths.hpp"
 #include "fleetmap/ros_codec/frame_transforms.hpp"
-#include "fleetmap/ros_codec/livox_points.hpp"
+#include "fleetmap/ros_codec/points_type.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "packet_reader.hpp"
@@ -144,14 +144,16 @@ class BagReader : public PacketReader {
       case Kind::kScan:
       case Kind::kLivox: {
         note_frame(sensor::Source::kLidar, cdr);
+        const auto type =
+            kind == Kind::kLivox ? ros_codec::PointsType::kLivoxDriver2 : ros_codec::PointsType::kPointCloud2;
         if (content_ == ScanContent::kStampOnly) {
-          const auto stamp = ros_codec::stamp_of_scan(cdr);
+          const auto stamp = ros_codec::stamp_of_points(cdr, type);
           if (!stamp) return undecodable(topic, stamp.error());
           sensor::Scan scan;
           scan.stamp = *stamp;
           return Sample(std::move(scan));
         }
-        auto decoded = kind == Kind::kLivox ? ros_codec::decode_livox(cdr) : ros_codec::decode_scan(cdr);
+        auto decoded = ros_codec::decode_points(cdr, type);
         if (!decoded) return undecodable(topic, decoded.error());
         if (!admit_points(*decoded, "a scan on " + topic)) return std::nullopt;
         return Sample(std::move(decoded->scan));

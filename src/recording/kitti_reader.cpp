@@ -269,7 +269,8 @@ void say_what_is_assumed(const Layout& layout, const KittiReader::Files& files, 
 
 bool has_kitti_layout(const fs::path& path) { return layout_of(path).has_value(); }
 
-Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConfig& config) {
+Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConfig& config,
+                                           ScanContent content) {
   const Layout layout = layout_of(path).value();
   KittiReader::Files files;
   files.motion_compensated = layout.motion_compensated;
@@ -280,7 +281,8 @@ Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConf
                    " has no scan (.bin, .pcd, or either with .xz) among the frames asked for");
   }
   if (auto status = read_stamps(layout, files); !status) return tl::unexpected(status.error());
-  say_what_is_assumed(layout, files, config);
+  // A recording is surveyed before it is read with points, which states the same.
+  if (content == ScanContent::kPoints) say_what_is_assumed(layout, files, config);
   return std::make_unique<KittiReader>(path.string(), std::move(files), config);
 }
 

@@ -11,6 +11,7 @@ namespace fleetmap::recording {
 /// bare folder of scans.
 bool has_kitti_layout(const std::filesystem::path& path);
 /// True for a path with such a content.
-Result<std::unique_ptr<Reader>> open_kitti(const std::filesystem::path& path, const KittiConfig& config);
+Result<std::unique_ptr<Reader>> open_kitti(const std::filesystem::path& path, const KittiConfig& config,
+                                           ScanContent content = ScanContent::kPoints);
 
 }  // namespace fleetmap::recording

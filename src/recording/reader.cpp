@@ -20,7 +20,7 @@ Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const Re
   if (!is_there(path)) return failure(path.string() + ": there is no such recording");
   if (is_bag(path)) return open_bag(path, config, content);
   if (is_capture(path)) return open_capture(path, config.ouster_metadata, content);
-  if (has_kitti_layout(path)) return open_kitti(path, config.kitti);
+  if (has_kitti_layout(path)) return open_kitti(path, config.kitti, content);
   return failure(path.string() +
                  ": is neither a rosbag2 folder (metadata.yaml, .db3 or .mcap), nor such a file or a ROS 1 "
                  ".bag, nor a capture (.pcap), nor a KITTI folder "

@@ -9,7 +9,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cdr_header.hpp"
 #include "fleetmap/bus/cdr.hpp"
 #include "fleetmap/core/text_list.hpp"
 #include "point_datatype.hpp"
@@ -247,17 +246,6 @@ Bytes encode(const sensor::Scan& scan, std::string_view frame_id) {
     at += step;
   }
   return bus::to_cdr(out);
-}
-
-Result<Stamp> stamp_of_scan(ByteView cdr) {
-  if (auto status = bus::check_encapsulation(cdr, type_name::kPointCloud2); !status)
-    return tl::unexpected(status.error());
-  if (cdr.size() < bus::kEncapsulationBytes + kStampBytes)
-    return failure(std::string(type_name::kPointCloud2) + ": ends within its header");
-  builtin_interfaces::msg::dds_::Time_ time;
-  time.sec(static_cast<std::int32_t>(header_number(cdr, bus::kEncapsulationBytes)));
-  time.nanosec(header_number(cdr, bus::kEncapsulationBytes + 4));
-  return from_ros(time, type_name::kPointCloud2);
 }
 
 Result<DecodedScan> decode_scan(ByteView cdr) {

@@ -1,7 +1,10 @@
 #include "fleetmap/ros_codec/points_type.hpp"
 
+#include "cdr_header.hpp"
+#include "fleetmap/bus/cdr.hpp"
 #include "fleetmap/core/text_list.hpp"
 #include "fleetmap/ros_codec/livox_points.hpp"
+#include "ros_time.hpp"
 #include "type_names.hpp"
 
 namespace fleetmap::ros_codec {
@@ -47,6 +50,17 @@ Bytes encode_points(const sensor::Scan& scan, PointsType type, std::string_view 
 
 Result<DecodedScan> decode_points(ByteView cdr, PointsType type) {
   return type == PointsType::kPointCloud2 ? decode_scan(cdr) : decode_livox(cdr);
+}
+
+Result<Stamp> stamp_of_points(ByteView cdr, PointsType type) {
+  const std::string name = dds_name(type);
+  if (auto status = bus::check_encapsulation(cdr, name.c_str()); !status)
+    return tl::unexpected(status.error());
+  if (cdr.size() < bus::kEncapsulationBytes + kStampBytes) return failure(name + ": ends within its header");
+  builtin_interfaces::msg::dds_::Time_ time;
+  time.sec(static_cast<std::int32_t>(header_number(cdr, bus::kEncapsulationBytes)));
+  time.nanosec(header_number(cdr, bus::kEncapsulationBytes + 4));
+  return from_ros(time, name.c_str());
 }
 
 }  // namespace fleetmap::ros_codec

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/geometry/degree.hpp"
 #include "short_number.hpp"
 
@@ -70,6 +71,8 @@ void MotionAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
 }
 
 void MotionAgreement::compare(const Step& step) {
+  if (step.moved.norm() >= kMinMove) lidar_drove_ += step.moved.norm();
+  if (std::abs(step.turned) >= kMinTurn) lidar_turned_ += std::abs(step.turned);
   compare_drive(step);
   compare_turn(step);
   compare_stamps(step);
@@ -221,6 +224,17 @@ void MotionAgreement::check_stamps() {
       " the LiDAR, by the stamps: one of the two stamps its samples wrongly (at the end of a sweep "
       "instead of its start, when they arrive, or by a clock of its own). Correct the driver, or "
       "synchronise both (PTP)");
+}
+
+std::optional<std::string> MotionAgreement::not_compared() const {
+  if (!gyro_.last() && !wheels_.last()) return "neither the IMU nor wheels are heard";
+  std::string missing;
+  if (wheels_.last() && !drive_checked_) append_to_list(missing, "the speed of the wheels");
+  if (!turns_checked_) append_to_list(missing, "turns");
+  if (gyro_.last() && !stamps_checked_) append_to_list(missing, "stamps");
+  if (missing.empty()) return std::nullopt;
+  return missing + ": by the LiDAR the robot drove " + short_number(lidar_drove_) + " m and turned by " +
+         short_number(lidar_turned_ / kDegree) + " deg. Drive 10 m and two turns of 90 deg";
 }
 
 std::vector<std::string> MotionAgreement::take_findings() { return std::exchange(findings_, {}); }

@@ -67,7 +67,9 @@ Eigen::Vector3d median(std::vector<Eigen::Vector3d> vectors) {
 
 }  // namespace
 
-void SensorHealth::state(std::string finding) { findings_.push_back(std::move(finding)); }
+void SensorHealth::state(std::string finding) {
+  if (std::ranges::find(findings_, finding) == findings_.end()) findings_.push_back(std::move(finding));
+}
 
 bool SensorHealth::refuse() {
   ++refused_;

@@ -7,7 +7,8 @@
 namespace fleetmap::sensor {
 namespace {
 
-constexpr double kComparedTurn = 0.1, kTurnNeeded = 0.6;  // rad
+constexpr double kComparedTurn = 0.1, kTurnNeeded = 1.0;  // rad
+constexpr int kScansNeeded = 5;
 constexpr Duration kMaxAge = std::chrono::milliseconds(1500);
 constexpr double kFitsBetter = 0.7;                // misfit against the gyro over that with it
 constexpr float kLowest = -0.4f, kHighest = 3.0f;  // m about the LiDAR: neither ground nor roofs
@@ -23,17 +24,19 @@ void TurnDirection::add(const Wheel& wheel) {
 }
 
 void TurnDirection::add(const Scan& scan) {
+  if (decided_ || !gyro_.last()) return;
   const auto turned = reference_ ? gyro_.between(reference_->stamp, scan.stamp) : std::nullopt;
-  const bool enough = turned && std::abs(turned->z()) > kComparedTurn;
-  const bool useful = turned && scan.stamp - reference_->stamp < kMaxAge;
-  if (useful && !enough) return;
+  const bool is_recent =
+      reference_ && scan.stamp >= reference_->stamp && scan.stamp - reference_->stamp < kMaxAge;
+  if (is_recent && (!turned || std::abs(turned->z()) <= kComparedTurn)) return;
   const Ranges now = ranges_of(scan);
-  if (useful) {
+  if (is_recent) {
     compare(now, turned->z());
     if (const auto wheels = wheels_.between(reference_->stamp, scan.stamp))
       with_wheels_ += turned->z() * wheels->z();
   }
   reference_ = {scan.stamp, now};
+  decided_ = turned_ >= kTurnNeeded && compared_ >= kScansNeeded;
 }
 
 TurnDirection::Ranges TurnDirection::ranges_of(const Scan& scan) const {
@@ -63,22 +66,27 @@ void TurnDirection::compare(const Ranges& now, double turned) {
     }
     return sum / count;
   };
+  ++compared_;
   turned_ += std::abs(turned);
   along_ += misfit(shift);
   against_ += misfit(-shift);
+  unturned_ += misfit(0);
 }
 
 std::optional<std::string> TurnDirection::finding() const {
-  if (turned_ < kTurnNeeded || against_ > kFitsBetter * along_) return std::nullopt;
+  // A gyro of another unit, whose turns fit neither way, fits best without a turn.
+  if (!decided_ || against_ > kFitsBetter * along_ || against_ > unturned_) return std::nullopt;
   const std::string mirrored =
       "its points are mirrored (left-handed axes, or a device that turns the other way), or it is mounted "
       "upside down and lidar.rotation_rpy_deg does not say so";
+  // The first two as MotionAgreement states them.
   if (with_wheels_ > 0.0) return "LiDAR: it turns right where gyro and wheels turn left: " + mirrored;
-  const std::string gyro =
-      "the sign of the gyro's z axis is wrong, or the IMU is upside down and "
-      "imu.rotation_rpy_deg does not say so";
-  if (with_wheels_ < 0.0) return "IMU: its gyro turns right where LiDAR and wheels turn left: " + gyro;
-  return "LiDAR: it turns right where the gyro turns left: " + mirrored + "; or " + gyro;
+  if (with_wheels_ < 0.0)
+    return "IMU: its gyro turns right where LiDAR and wheels turn left: the sign of its z axis is wrong, or "
+           "the IMU is upside down. Correct the driver, or state the IMU's mount (imu.rotation_rpy_deg)";
+  return "LiDAR: it turns right where the gyro turns left: " + mirrored +
+         "; or the sign of the gyro's z axis is wrong, or the IMU is upside down and imu.rotation_rpy_deg "
+         "does not say so";
 }
 
 }  // namespace fleetmap::sensor

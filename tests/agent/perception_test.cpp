@@ -19,6 +19,9 @@ namespace fleetmap::agent {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 namespace topics = ros_codec::topics;
 
 constexpr Stamp kStart = stamp_from_ns(1'750'000'000'000'000'000);
@@ -117,6 +120,45 @@ TEST_F(PerceptionTest, WhatCannotBeDecodedIsCountedAndNoEnd) {
   scan();
   run_for(1s);
   EXPECT_EQ(perceived_.size(), 1u);
+}
+
+/// A robot that turns on the spot by 2 rad; the points' y axis is multiplied by `mirror`.
+std::vector<std::string> findings_of_a_turn(const PerceptionConfig& config, float mirror) {
+  bus::LocalNetworkConfig network_config;
+  network_config.start = kStart;
+  network_config.perception_time = 50ms;
+  const auto network = bus::LocalNetwork::create(network_config).value();
+  bus::Bus& bus = network->add_robot(AgentId::parse("r1").value());
+  Perception perception(config, bus, [](Perceived&&) {});
+  const testing::SyntheticDrive drive({{4.0, 0.0, 0.6}});
+  const auto world = testing::yard_world();
+  testing::ScanOptions options;
+  options.keep = 0.3;
+  for (int tick = 0; tick < 400; ++tick) {
+    const double t = 0.01 * tick;
+    network->run_until(kStart + from_seconds(t));
+    sensor::Imu imu = drive.imu(t);
+    imu.stamp = network->now();
+    bus.publish(topics::imu(), ros_codec::encode(imu));
+    sensor::Wheel wheel = drive.wheel(t);
+    wheel.stamp = network->now();
+    bus.publish(topics::wheel_odometry(), ros_codec::encode(wheel));
+    if (tick % 10 != 0 || tick == 0) continue;
+    sensor::Scan scan = testing::make_scan(
+        world, [&](double at) { return drive.at(at); }, t - 0.1, odometry::vlp16(), options);
+    scan.stamp = network->now() - 100ms;
+    for (sensor::ScanPoint& point : scan.points) point.position.y() *= mirror;
+    bus.publish(topics::points(), ros_codec::encode(scan));
+  }
+  network->run_until(network->now() + 1s);
+  return perception.health().findings();
+}
+
+TEST_F(PerceptionTest, AMirroredLidarIsNamedInTheFirstTurnAndASoundOneIsNot) {
+  EXPECT_THAT(findings_of_a_turn(config_, 1.0f), IsEmpty());
+  EXPECT_THAT(findings_of_a_turn(config_, -1.0f),
+              ElementsAre(HasSubstr("LiDAR: it turns right where gyro and wheels turn left: its points are "
+                                    "mirrored")));
 }
 
 TEST_F(PerceptionTest, ScansBeyondThoseThatMayWaitTakeThePlaceOfTheOldest) {

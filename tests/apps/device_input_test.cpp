@@ -104,6 +104,7 @@ TEST_F(DeviceInputTest, ADeviceThatVanishesIsReadAgainWhenItComesBack) {
   ASSERT_TRUE(sends("hi")) << "a greeting for each connection";
   ASSERT_TRUE(device_->send(bytes_of("two")));
   ASSERT_TRUE(receives("onetwo"));
+  EXPECT_EQ(input_->trouble(), "") << "it is heard";
   input_.reset();
   const std::string log = log_.str();
   EXPECT_LE(count(log, "no such device"), 2u) << log;
@@ -114,6 +115,8 @@ TEST_F(DeviceInputTest, AMissingDeviceIsSaidOnce) {
   start();
   const auto begun = std::chrono::steady_clock::now();  // several tries
   ASSERT_TRUE(eventually([&] { return std::chrono::steady_clock::now() - begun > 3500ms; }, kPatience));
+  EXPECT_THAT(input_->trouble(),
+              ::testing::EndsWith("autopilot: no such device; plug it in, or correct the path"));
   input_.reset();
   EXPECT_EQ(count(log_.str(),
                   "autopilot: no such device; plug it in, or correct the path; tried again every second"),

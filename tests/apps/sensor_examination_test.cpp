@@ -13,10 +13,12 @@
 
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/core/utc.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "support/command_line.hpp"
+#include "support/gpsd_server.hpp"
 #include "support/livox_message.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -130,6 +132,41 @@ TEST_F(SensorExamination, HearsTheMessagesOfALivoxDriver) {
   EXPECT_THAT(process.output(), ContainsRegex("LiDAR +[1-9]"));
   EXPECT_THAT(process.output(), HasSubstr("its unit is g "));
   EXPECT_THAT(process.output(), Not(HasSubstr("no scan on")));
+}
+
+TEST_F(SensorExamination, ThatGpsdIsMissingIsSaid) {
+  std::ofstream(file_, std::ios::app) << "gps: {gpsd: \"127.0.0.1:1\"}\n";
+  auto process = doctor("2");
+  EXPECT_EQ(process.wait(), 1) << process.output();
+  EXPECT_THAT(process.output(), HasSubstr("- no fix is heard: 127.0.0.1:1: Connection refused; start it, or "
+                                          "correct host and port\n"));
+}
+
+TEST_F(SensorExamination, ThatGpsdHasNoReceiverIsSaid) {
+  const testing::GpsdServer gpsd([] { return std::string("{\"class\":\"SKY\"}\n"); });
+  std::ofstream(file_, std::ios::app) << "gps: {gpsd: \"" << gpsd.place() << "\"}\n";
+  auto process = doctor("3");
+  EXPECT_EQ(process.wait(), 1) << process.output();
+  EXPECT_THAT(process.output(), HasSubstr("- no fix is heard: gpsd at " + gpsd.place() +
+                                          " sends no position (TPV with a time)"));
+}
+
+/// The agent publishes what it hears of gpsd itself; another doctor listens to its topic here.
+TEST_F(SensorExamination, FixesOfGpsdAreHeardAndStayAwayFromTheAgentsTopic) {
+  const testing::GpsdServer gpsd([] {
+    return R"({"class":"TPV","mode":3,"lat":48.2,"lon":11.6,"altHAE":500.0,"time":")" + to_utc(system_now()) +
+           "\"}\n";
+  });
+  const std::filesystem::path topic_file = folder_.path() / "topic.yaml";
+  std::filesystem::copy_file(file_, topic_file);
+  auto beside = testing::Process({testing::kProgram, "doctor", "-c", topic_file.string(), "--seconds", "8"});
+  std::ofstream(file_, std::ios::app) << "gps: {gpsd: \"" << gpsd.place() << "\"}\n";
+  auto process = doctor("6");
+  EXPECT_EQ(beside.wait(), 1);
+  process.wait();
+  EXPECT_THAT(process.output(), ContainsRegex("GPS +[1-9]"));
+  EXPECT_THAT(process.output(), Not(HasSubstr("no fix is heard")));
+  EXPECT_THAT(beside.output(), ContainsRegex("GPS +0 +none"));
 }
 
 }  // namespace

@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "fleetmap/bus/local_network.hpp"
+#include "made_robot.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
@@ -14,8 +18,11 @@ namespace {
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+
+constexpr Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
 
 class SensorListenerTest : public ::testing::Test {
  protected:
@@ -60,6 +67,78 @@ TEST_F(SensorListenerTest, WhatCannotBeDecodedIsCountedByItsReason) {
     network_->run_until(network_->now() + std::chrono::milliseconds(10));
   }
   EXPECT_THAT(listener_.findings(), Contains(AllOf(HasSubstr(imu.name + ": "), HasSubstr(" (2 messages)"))));
+}
+
+/// A robot as its drivers have it, heard for 12 s of a drive: (findings, notes).
+struct Heard {
+  std::vector<std::string> findings, notes;
+};
+Heard heard(const std::function<void(recording::Sample&)>& spoil, double speed = 1.5) {
+  static const std::vector<SentSample> driven = samples_of_a_robot(1.5, 12.0, kStart);
+  bus::LocalNetworkConfig network_config;
+  network_config.start = kStart;
+  network_config.perception_time = std::chrono::milliseconds(30);
+  const auto network = bus::LocalNetwork::create(network_config).value();
+  bus::Bus& robot = network->add_robot(AgentId::parse("r1").value());
+  agent::PerceptionConfig config;
+  config.odometry.T_base_lidar = testing::ScanOptions{}.T_base_lidar;
+  config.mount_configured.fill(true);
+  SensorListener listener(config, robot);
+  for (SentSample sent : speed > 0.0 ? driven : samples_of_a_robot(0.0, 4.0, kStart)) {
+    spoil(sent.sample);
+    network->run_until(sent.sent);
+    const EncodedSample encoded = encode(sent.sample, config.topics);
+    robot.publish(encoded.topic, encoded.cdr);
+  }
+  network->run_until(network->now() + std::chrono::seconds(1));
+  EXPECT_TRUE(listener.idle());
+  return {listener.findings(), listener.notes()};
+}
+
+template <class T>
+std::function<void(recording::Sample&)> each(std::function<void(T&)> change) {
+  return [change](recording::Sample& sample) {
+    if (auto* one = std::get_if<T>(&sample)) change(*one);
+  };
+}
+
+TEST(SensorListenerMotions, OfASoundRobotAllIsComparedAndNothingFound) {
+  const Heard sound = heard([](recording::Sample&) {});
+  EXPECT_THAT(sound.findings, IsEmpty());
+  EXPECT_THAT(sound.notes, IsEmpty());
+}
+
+TEST(SensorListenerMotions, ARobotThatStandsIsToldThatNothingWasCompared) {
+  const Heard standing = heard([](recording::Sample&) {}, 0.0);
+  EXPECT_THAT(standing.findings, IsEmpty());
+  EXPECT_THAT(standing.notes, ElementsAre(HasSubstr("motions not compared: ")));
+}
+
+TEST(SensorListenerMotions, TheWrongSensorIsNamed) {
+  using sensor::Imu, sensor::Scan, sensor::Wheel;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const std::vector<std::pair<std::string, std::function<void(recording::Sample&)>>> cases{
+      {"deg/s", each<Imu>([](Imu& imu) { imu.angular_velocity /= kDegree; })},
+      {"the sign of its z axis is wrong", each<Imu>([](Imu& imu) { imu.angular_velocity.z() *= -1.0; })},
+      {"its axes are swapped",
+       each<Imu>([](Imu& imu) { std::swap(imu.angular_velocity.x(), imu.angular_velocity.z()); })},
+      {"the gyro turns", each<Imu>([](Imu& imu) { imu.stamp -= std::chrono::milliseconds(200); })},
+      {"the gyro turns", each<Scan>([](Scan& scan) { scan.stamp += std::chrono::milliseconds(100); })},
+      {"km/h", each<Wheel>([](Wheel& wheel) { wheel.forward_speed *= 3.6; })},
+      {"drives backwards", each<Wheel>([](Wheel& wheel) { wheel.forward_speed *= -1.0; })},
+      {"it stands while the LiDAR moves", each<Wheel>([](Wheel& wheel) {
+         wheel = {wheel.stamp, 0.0, std::nullopt};
+       })},
+      {"its points are mirrored", each<Scan>([](Scan& scan) {
+         for (sensor::ScanPoint& point : scan.points) point.position.y() *= -1.0f;
+       })},
+      {"deg more yaw", each<Scan>([](Scan& scan) {
+         for (sensor::ScanPoint& point : scan.points)
+           point.position = Eigen::Vector3f(point.position.y(), -point.position.x(), point.position.z());
+       })},
+  };
+  for (const auto& [named, spoil] : cases)
+    EXPECT_THAT(heard(spoil).findings, Contains(HasSubstr(named))) << named;
 }
 
 }  // namespace

@@ -176,6 +176,17 @@ TEST_F(SpoiltRecording, FindingsAreInTheReport) {
   EXPECT_THAT(findings[0].get<std::string>(), HasSubstr("fixes have no altitude"));
 }
 
+TEST_F(SpoiltRecording, AMirroredLidarIsInTheReportOfARun) {
+  Recording mirrored = good_;
+  testing::each<sensor::Scan>([](sensor::Scan& scan) {
+    for (sensor::ScanPoint& point : scan.points) point.position.y() *= -1.0f;
+  })(mirrored);
+  EXPECT_THAT(run("mirrored", mirrored).output, HasSubstr("its points are mirrored"));
+  std::ifstream file(folder_->path() / "mirrored_out/report.json");
+  const auto report = nlohmann::json::parse(file);
+  EXPECT_THAT(report["agents"]["r1"]["sensors"]["findings"].dump(), HasSubstr("its points are mirrored"));
+}
+
 TEST_F(SpoiltRecording, InspectNamesTheCauseAndFails) {
   Recording swift = good_;
   testing::each<sensor::Wheel>([](sensor::Wheel& wheel) { wheel.forward_speed *= 3.6; })(swift);

@@ -6,6 +6,7 @@
 #include "fleetmap/ros_codec/frame_transforms.hpp"
 #include "fleetmap/ros_codec/livox_points.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/points_type.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 
 namespace fleetmap::fuzz {
@@ -22,7 +23,7 @@ void decode(ByteView cdr) {
 }
 
 void decode_scan(ByteView cdr) {
-  const auto stamp = ros_codec::stamp_of_scan(cdr);
+  const auto stamp = ros_codec::stamp_of_points(cdr, ros_codec::PointsType::kPointCloud2);
   const auto decoded = ros_codec::decode_scan(cdr);
   if (!decoded) return;
   require(stamp.has_value(), "a scan that can be decoded has no stamp");

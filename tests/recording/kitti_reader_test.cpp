@@ -1,8 +1,11 @@
 #include "kitti_reader.hpp"
 
 #include <gmock/gmock.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <array>
+#include <memory>
 #include <sstream>
 
 #include "bag_samples.hpp"
@@ -55,6 +58,22 @@ class KittiReaderTest : public ::testing::Test {
   Counters counters_;
   std::vector<std::optional<double>> yaw_rates_;
 };
+
+TEST_F(KittiReaderTest, AssumptionsAreLoggedOnceAlthoughARecordingIsSurveyedFirst) {
+  write_scan("velodyne_points/0000000000.bin");
+  std::ostringstream log;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log, /*force_flush=*/true)));
+  EXPECT_TRUE(open(folder_.path(), {}, ScanContent::kStampOnly));
+  EXPECT_EQ(log.str(), "");
+  EXPECT_TRUE(open(folder_.path()));
+  spdlog::set_default_logger(before);
+  const std::string said = "there is no timestamps.txt", all = log.str();
+  const auto first = all.find(said);
+  EXPECT_NE(first, std::string::npos) << all;
+  EXPECT_EQ(all.find(said, first + 1), std::string::npos) << all;
+}
 
 TEST_F(KittiReaderTest, ALayoutIsToldByItsFolders) {
   EXPECT_FALSE(has_kitti_layout(folder_.path()));

@@ -7,6 +7,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(PointsType, HasTheNamesOfRos2) {
   EXPECT_EQ(ros_name(PointsType::kPointCloud2), "sensor_msgs/msg/PointCloud2");
@@ -37,6 +38,23 @@ TEST(PointsType, AScanComesBackInEachAndInNoOther) {
     EXPECT_NEAR(back->scan.points[49].time, 0.049f, 1e-6);
     const bool livox = type != PointsType::kPointCloud2;
     EXPECT_FALSE(decode_points(cdr, livox ? PointsType::kPointCloud2 : PointsType::kLivoxDriver2));
+    EXPECT_EQ(stamp_of_points(cdr, type), scan.stamp);
+  }
+}
+
+TEST(PointsType, AMessageThatEndsWithinItsStampIsRefusedUnderItsOwnType) {
+  for (const PointsType type : kPointsTypes) {
+    Bytes cdr = encode_points(sensor::Scan{}, type);
+    for (const std::size_t size : {11, 8, 3, 0}) {
+      cdr.resize(size);
+      const auto stamp = stamp_of_points(cdr, type);
+      ASSERT_FALSE(stamp) << size;
+      EXPECT_THAT(stamp.error().message, StartsWith(dds_name(type)));
+    }
+    cdr = encode_points(sensor::Scan{}, type);
+    cdr[11] = 0xff;  // of the nanoseconds' uint32: more than a second
+    EXPECT_THAT(stamp_of_points(cdr, type).error().message,
+                AllOf(StartsWith(dds_name(type)), HasSubstr("is not a time")));
   }
 }
 

@@ -12,6 +12,7 @@ using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 Stamp at(double seconds) { return stamp_from_ns(1'700'000'000'000'000'000) + from_seconds(seconds); }
 
@@ -25,25 +26,28 @@ struct Robot {
 
   static double rate(double t) { return 0.4 * std::sin(0.9 * t); }
 
-  std::vector<std::string> findings() const {
+  double seconds = 60.0, speed = 1.0;
+
+  std::vector<std::string> findings() const { return driven().take_findings(); }
+  MotionAgreement driven() const {
     MotionAgreement agreement;
     Pose T = Pose::Identity();
     const Pose T_base_wrong = make_pose(rotation_from_rpy(0.0, 0.0, lidar_yaw), Eigen::Vector3d::Zero());
-    for (int k = 0; k < 6000; ++k) {
+    for (int k = 0; k < static_cast<int>(100.0 * seconds); ++k) {
       const double t = 0.01 * k;
       Imu imu;
       imu.stamp = at(t + gyro_late);
       imu.angular_velocity = gyro_scale * (R_imu_base * Eigen::Vector3d(0.0, 0.0, rate(t)));
       if (with_gyro) agreement.add(imu);
       if (with_wheels && k % 5 == 0)
-        agreement.add(
-            Wheel{.stamp = at(t), .forward_speed = wheel_scale, .yaw_rate = wheel_turn_scale * rate(t)});
+        agreement.add(Wheel{
+            .stamp = at(t), .forward_speed = wheel_scale * speed, .yaw_rate = wheel_turn_scale * rate(t)});
       if (lost) agreement.interrupt();
       if (k % 10 == 0) agreement.add_motion(at(t), T_base_wrong.inverse() * T * T_base_wrong);
       T = T * make_pose(rotation_from_rpy(0.0, 0.0, lidar_turn_sign * 0.01 * rate(t)),
-                        Eigen::Vector3d(0.01, 0.0, 0.0));
+                        Eigen::Vector3d(0.01 * speed, 0.0, 0.0));
     }
-    return agreement.take_findings();
+    return agreement;
   }
 };
 
@@ -52,6 +56,18 @@ TEST(MotionAgreement, IsSilentWhereAllAgreeOrNothingIsCompared) {
   EXPECT_THAT((Robot{.with_gyro = false, .with_wheels = false}.findings()), IsEmpty());
   EXPECT_THAT((Robot{.wheel_scale = 1.1, .wheel_turn_scale = 0.7, .gyro_scale = 1.03}.findings()), IsEmpty())
       << "tyres, skid steering and a cheap gyro";
+}
+
+TEST(MotionAgreement, SaysWhatWasNotComparedAndHowFarTheRobotMoved) {
+  EXPECT_EQ(Robot{}.driven().not_compared(), std::nullopt);
+  EXPECT_EQ((Robot{.with_wheels = false}.driven().not_compared()), std::nullopt);
+  EXPECT_THAT((Robot{.with_gyro = false, .with_wheels = false}.driven().not_compared().value_or("")),
+              HasSubstr("neither the IMU nor wheels"));
+  EXPECT_THAT((Robot{.seconds = 2.0}.driven().not_compared().value_or("")),
+              ContainsRegex("the speed of the wheels, turns, stamps: .* drove 1\\.[0-9]+ m and turned by"));
+  EXPECT_THAT((Robot{.speed = 0.1}.driven().not_compared().value_or("")),
+              StartsWith("the speed of the wheels: "))
+      << "it turned nearly on the spot";
 }
 
 TEST(MotionAgreement, TheUnitAndTheSignOfTheWheelsAreNamed) {

@@ -15,7 +15,8 @@ struct Turning {
   float mirror = 1.0f;  ///< of the LiDAR's y axis
   double gyro_sign = 1.0;
   std::optional<double> wheel_sign = 1.0;
-  double turn_rate = 0.5;  ///< rad/s
+  double turn_rate = 0.5;   ///< rad/s
+  double gyro_scale = 1.0;  ///< of its unit
 };
 
 /// A robot turns on the spot for 4 s in a room whose walls are nearer on some sides.
@@ -26,7 +27,7 @@ std::optional<std::string> finding_of(const Turning& turning) {
     const Stamp stamp = stamp_from_ns(0) + from_seconds(t);
     Imu imu;
     imu.stamp = stamp;
-    imu.angular_velocity.z() = turning.gyro_sign * turning.turn_rate;
+    imu.angular_velocity.z() = turning.gyro_sign * turning.gyro_scale * turning.turn_rate;
     direction.add(imu);
     Wheel wheel;
     wheel.stamp = stamp;
@@ -54,6 +55,28 @@ TEST(TurnDirection, IsSilentOnASoundRobotAndOnOneThatDrivesStraight) {
   EXPECT_EQ(finding_of({}), std::nullopt);
   EXPECT_EQ(finding_of({.turn_rate = -0.5}), std::nullopt);
   EXPECT_EQ(finding_of({.mirror = -1.0f, .turn_rate = 0.05}), std::nullopt);
+}
+
+TEST(TurnDirection, IsSilentOnAGyroInDegrees) {
+  for (const double turn_rate : {0.05, 0.1, 0.2, 0.5}) {
+    EXPECT_EQ(finding_of({.turn_rate = turn_rate, .gyro_scale = 180.0 / M_PI}), std::nullopt) << turn_rate;
+  }
+}
+
+TEST(TurnDirection, IsDecidedOnceAfterARadian) {
+  TurnDirection direction(Eigen::Matrix3d::Identity(), Eigen::Quaterniond::Identity());
+  Scan scan;
+  double turned = 0.0;
+  for (int k = 0; !direction.decided() && k < 1000; ++k) {
+    Imu imu;
+    imu.stamp = scan.stamp = stamp_from_ns(0) + std::chrono::milliseconds(100 * k);
+    imu.angular_velocity.z() = 1.5;
+    turned = 0.15 * k;
+    direction.add(imu);
+    direction.add(scan);
+  }
+  EXPECT_GE(turned, 1.0);
+  EXPECT_LT(turned, 1.4);
 }
 
 TEST(TurnDirection, NamesTheSensorThatTheTwoOthersContradict) {

@@ -18,6 +18,7 @@
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "fleetmap/sensor/sensor_health.hpp"
+#include "fleetmap/sensor/turn_direction.hpp"
 
 namespace fleetmap::agent {
 
@@ -88,6 +89,7 @@ class Perception {
     bool times_in_microseconds = false;
     std::optional<std::pair<Stamp, Duration>> sweep;  ///< stamp and sweep of a decoded scan
     std::optional<Eigen::Vector3d> ground;            ///< its normal in base_link
+    std::optional<std::string> turns_finding;         ///< when the direction of turns is decided
     double cpu_seconds = 0.0;
     bool find_ground = false;
   };
@@ -102,6 +104,9 @@ class Perception {
   void on_transforms(const Bytes& cdr);
   void on_scan(const Bytes& cdr);
   void start_next();
+  /// Runs LOAM and the checks on a scan, off the callback thread.
+  void work_on(Job& job);
+  void check_turns(Job& job, const sensor::Scan& scan);
   void finish(Job& job);
   /// Logs when the odometry loses its way and when it has it again.
   void report_loss(const odometry::OdometryUpdate& update);
@@ -112,7 +117,8 @@ class Perception {
   bus::Bus& bus_;
   OnPerceived on_perceived_;
   std::function<void()> on_scan_;
-  odometry::Loam loam_;  ///< touched by the work item under way only
+  odometry::Loam loam_;          ///< touched by the work item under way only
+  sensor::TurnDirection turns_;  ///< like loam_
   odometry::LoamCounters loam_counters_;
   OdometryMessages odometry_messages_;
   localization::Ekf ekf_;

@@ -33,8 +33,6 @@ Bytes encode(const sensor::Scan& scan, std::string_view frame_id = "lidar");
 /// us if the sweep would take less than 1 ms), relative to the header's stamp or absolute. Refuses data that
 /// contradict height, width, point_step and row_step.
 Result<DecodedScan> decode_scan(ByteView cdr);
-/// The header's stamp of a PointCloud2, without reading anything else.
-Result<Stamp> stamp_of_scan(ByteView cdr);
 
 template <>
 Result<sensor::Scan> decode(ByteView cdr);

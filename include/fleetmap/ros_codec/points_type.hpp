@@ -6,6 +6,7 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/sensor/scan.hpp"
 
@@ -25,5 +26,7 @@ Result<PointsType> points_type(std::string_view ros_name);
 
 Bytes encode_points(const sensor::Scan& scan, PointsType type, std::string_view frame_id = "lidar");
 Result<DecodedScan> decode_points(ByteView cdr, PointsType type);
+/// The header's stamp of a message of points, without reading anything else.
+Result<Stamp> stamp_of_points(ByteView cdr, PointsType type);
 
 }  // namespace fleetmap::ros_codec

@@ -29,6 +29,8 @@ class MotionAgreement {
   void add_motion(Stamp stamp, const Pose& T_odom_base);
   /// The motion has no relation to the one before: the odometry lost its way or began anew.
   void interrupt();
+  /// A sentence on what was not compared yet and how far the robot has to move for it; empty if all was.
+  std::optional<std::string> not_compared() const;
   /// Since the last call.
   std::vector<std::string> take_findings();
 
@@ -59,7 +61,8 @@ class MotionAgreement {
     Pose T_odom_base;
   };
   std::optional<Instant> last_;
-  std::deque<Step> waiting_;  ///< until the other sensors have passed them
+  std::deque<Step> waiting_;                       ///< until the other sensors have passed them
+  double lidar_drove_ = 0.0, lidar_turned_ = 0.0;  ///< m, rad
 
   // Sums over steps; the LiDAR's squares divide them.
   double driven_ = 0.0, drive_squares_ = 0.0;  // m, m^2

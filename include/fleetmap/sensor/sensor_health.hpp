@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/geometry/se3.hpp"
@@ -26,6 +27,10 @@ class SensorHealth {
   /// base_link in the odometry's frame at a scan, if the scan fitted the map; otherwise empty. Gyro, wheels
   /// and GPS are compared with it.
   void check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base);
+  /// Adds the finding of a check that runs elsewhere (TurnDirection), once.
+  void add_finding(std::string finding) { state(std::move(finding)); }
+  /// The reason why gyro and wheels were not compared with the LiDAR; empty if they were.
+  std::optional<std::string> motion_not_compared() const { return motion_.not_compared(); }
   /// Mount of the IMU, before its first sample.
   void set_imu_rotation(const Eigen::Quaterniond& q_base_imu);
   /// Takes the angular rates for deg/s from the first one on, for a reason that was found before.
