@@ -48,8 +48,7 @@ export function edgeCard(state: State, edge: Edge, apart: number | undefined): H
   const title = alignment || !registration ? use : kVerdicts[registration.verdict];
   const rows: [string, string][] = [];
   const [a, b] = [edge.a, edge.b].map((id) => state.nodes.find((one) => one.id === id));
-  if (apart !== undefined)
-    rows.push(['nodes', comparable(a, b) ? `${metres(apart)} apart as placed` : kNoDistance]);
+  if (apart !== undefined) rows.push(['nodes', comparable(a, b) ? `${metres(apart)} apart as placed` : kNoDistance]);
   if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
   return [
     el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${title}: ${edge.b} → ${edge.a}`),

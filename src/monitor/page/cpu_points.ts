@@ -7,6 +7,24 @@ import type {PointPicture, View} from './shading';
 
 const kEmpty = 2; // a depth behind everything
 
+/** VP times the block's matrix, of steps of 1/32767, each row scaled: pixels and depths from the picture's middle. */
+function toPixels(VP: number[], style: Float32Array, scales: number[]): number[] {
+  return scales.flatMap((scale, r) =>
+    [0, 1, 2, 3].map(
+      (c) =>
+        (scale *
+          (VP[r] * style[c] + VP[r + 4] * style[c + 4] + VP[r + 8] * style[c + 8] + (c === 3 ? VP[r + 12] : 0))) /
+        (c === 3 ? 1 : 32767),
+    ),
+  );
+}
+
+/** Place on the ramp, 0 to 255, of the height of a point of the block: factors of x, y, z, and what is added. */
+function toRamp(style: Float32Array, low: number, high: number): number[] {
+  const per = 255 / Math.max(0.1, high - low);
+  return [...[8, 9, 10].map((at) => (style[at] / 32767) * per), (style[11] - low) * per];
+}
+
 /**
  * Draws points as gl_PointSize squares with a depth buffer, by the CPU, into textures. WebGL that runs on the CPU, as
  * in a virtual machine or over a remote desktop, takes about a microsecond a point; this takes some twenty
@@ -80,35 +98,11 @@ export class CpuPoints {
       v = this.pool.values,
       ramp = this.ramp(style);
     const {mode, low, high, pixelsPerMetre, planar, ratio} = this.style;
-    // Row r of VP times the block's matrix, of steps of 1/32767; pixels and depths from the middle of the picture.
-    const row = (r: number, c: number) =>
-      (VP[r] * style[c] + VP[r + 4] * style[c + 4] + VP[r + 8] * style[c + 8] + (c === 3 ? VP[r + 12] : 0)) /
-      (c === 3 ? 1 : 32767);
-    const halfWidth = 0.5 * width,
-      halfHeight = 0.5 * height;
-    const xx = halfWidth * row(0, 0),
-      xy = halfWidth * row(0, 1),
-      xz = halfWidth * row(0, 2),
-      x1 = halfWidth * row(0, 3);
-    const yx = halfHeight * row(1, 0),
-      yy = halfHeight * row(1, 1),
-      yz = halfHeight * row(1, 2),
-      y1 = halfHeight * row(1, 3);
-    const zx = 0.5 * row(2, 0),
-      zy = 0.5 * row(2, 1),
-      zz = 0.5 * row(2, 2),
-      z1 = 0.5 * row(2, 3);
-    const wx = row(3, 0),
-      wy = row(3, 1),
-      wz = row(3, 2),
-      w1 = row(3, 3);
-    const per = 255 / Math.max(0.1, high.value - low.value),
-      hx = (style[8] / 32767) * per,
-      hy = (style[9] / 32767) * per,
-      hz = (style[10] / 32767) * per;
-    const h1 = (style[11] - low.value) * per,
-      byHeight = mode.value < 2,
-      byIntensity = !byHeight && mode.value < 3,
+    const [halfWidth, halfHeight] = [0.5 * width, 0.5 * height];
+    const rows = toPixels(VP, style, [halfWidth, halfHeight, 0.5, 1]);
+    const [xx, xy, xz, x1, yx, yy, yz, y1, zx, zy, zz, z1, wx, wy, wz, w1] = rows;
+    const [hx, hy, hz, h1] = toRamp(style, low.value, high.value);
+    const [byHeight, byIntensity] = [mode.value < 2, mode.value >= 2 && mode.value < 3],
       own = ramp[Math.round(255 * style[15])];
     const size = kPointSize.metres * pixelsPerMetre.value * ratio.value,
       min = kPointSize.min * ratio.value,

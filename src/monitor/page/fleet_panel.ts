@@ -3,6 +3,19 @@ import {type Actions, type Child, dot, el} from './dom';
 import {patch} from './patch';
 import {colourOf, duration, isNumber, type Live, metres, placeMark, type Robot, type State} from './model';
 
+/** A robot's number of nodes at each of `times`, which ascend. */
+function nodesUntil(state: State, robot: Robot, times: number[]): number[] {
+  const own = state.nodes
+    .filter((node) => node.robot === robot.id)
+    .map((node) => node.t)
+    .sort((a, b) => a - b);
+  let k = 0;
+  return times.map((t) => {
+    while (k < own.length && own[k] <= t) ++k;
+    return k;
+  });
+}
+
 /** Each robot in words, who holds what, and nodes over time. */
 export class FleetPanel {
   private plot?: uPlot;
@@ -167,17 +180,7 @@ export class FleetPanel {
 
   private draw(state: State): void {
     const times = [...new Set(state.nodes.map((node) => node.t))].sort((a, b) => a - b);
-    const series = state.robots.map((robot) => {
-      const own = state.nodes
-        .filter((node) => node.robot === robot.id)
-        .map((node) => node.t)
-        .sort((a, b) => a - b);
-      let k = 0;
-      return times.map((t) => {
-        while (k < own.length && own[k] <= t) ++k;
-        return k;
-      });
-    });
+    const series = state.robots.map((robot) => nodesUntil(state, robot, times));
     this.plot?.destroy();
     if (times.length === 0) return;
     const style = getComputedStyle(document.documentElement);

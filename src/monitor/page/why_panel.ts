@@ -181,6 +181,15 @@ export class WhyPanel {
       };
       return chip;
     });
+    return el(
+      'div',
+      {class: 'filters'},
+      el('h2', {}, this.pair ? `Registrations of ${this.pair.join(' and ')}` : 'Registrations'),
+      el('div', {class: 'chips'}, ...chips, this.lastMinuteChip(state), this.robotFilter(state)),
+    );
+  }
+
+  private lastMinuteChip(state: State): HTMLElement {
     const recent = el(
       'button',
       {type: 'button', id: 'last-minute', class: 'chip', 'aria-pressed': String(this.recent)},
@@ -192,6 +201,10 @@ export class WhyPanel {
       this.rows = kRows;
       this.render();
     };
+    return recent;
+  }
+
+  private robotFilter(state: State): HTMLElement {
     const select = el(
       'select',
       {id: 'robot-filter', 'aria-label': 'Robot'},
@@ -204,12 +217,7 @@ export class WhyPanel {
       this.rows = kRows;
       this.render();
     };
-    return el(
-      'div',
-      {class: 'filters'},
-      el('h2', {}, this.pair ? `Registrations of ${this.pair.join(' and ')}` : 'Registrations'),
-      el('div', {class: 'chips'}, ...chips, recent, select),
-    );
+    return select;
   }
 
   private list(state: State): HTMLElement {
