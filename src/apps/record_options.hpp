@@ -10,7 +10,7 @@ class App;
 
 namespace fleetmap::apps {
 
-/// Where and how a command writes bags.
+/// Folder and format of the bags that a command writes.
 struct RecordOptions {
   std::string folder;  ///< empty: none
   recording::BagFormat format;
