@@ -31,7 +31,7 @@ constexpr double kPause = 100.0;   // sweeps: the LiDAR was off
 constexpr double kMissing = 1.75;  // sweeps from scan to scan
 constexpr double kMissingShare = 0.1;
 constexpr std::uint64_t kMinScansChecked = 40;
-/// Of the intervals between scans without point times, so many may be shorter than a sweep.
+/// Share of the intervals between scans without point times that may be shorter than a sweep.
 constexpr double kUsualShare = 0.1;
 constexpr std::uint64_t kScansPerGround = 5;
 constexpr std::size_t kGrounds = 40;
