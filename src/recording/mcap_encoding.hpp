@@ -19,7 +19,7 @@ using MessageIndex = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 struct Span {
   std::uint64_t first_ns = 0, last_ns = 0;  ///< earliest and latest log time
 };
-/// Offsets of a chunk and its message indexes in the file.
+/// Place of a chunk and of its message indexes in the file.
 struct ChunkIndex {
   Span times;
   std::uint64_t start = 0;                                 ///< offset of the chunk's record

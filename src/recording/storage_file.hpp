@@ -25,7 +25,7 @@ class StorageFile {
   /// Topics are numbered in the order in which they are added, from 0.
   virtual Status add_topic(const WrittenTopic& topic) = 0;
   virtual Status write(std::size_t topic, std::int64_t received_ns, ByteView cdr) = 0;
-  /// All that was written so far survives the end of the process, and a reader can read it.
+  /// Hands all that was written to the operating system: it survives the process, and can be read.
   virtual Status flush() = 0;
   virtual Status close() = 0;
 };

@@ -72,7 +72,8 @@ struct Layout {
 };
 
 tl::unexpected<Error> refused_cloud(const std::string& what) {
-  return failure(std::string(type_name::kPointCloud2) + ": " + what);
+  std::string message = type_name::kPointCloud2;  // GCC 12 warns wrongly of a sum of the three
+  return failure(message.append(": ").append(what));
 }
 
 Status check_extent(const PointCloud2_& in) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "fleetmap/core/receive_buffer.hpp"
@@ -31,7 +32,7 @@ constexpr double kPause = 100.0;   // sweeps: the LiDAR was off
 constexpr double kMissing = 1.75;  // sweeps from scan to scan
 constexpr double kMissingShare = 0.1;
 constexpr std::uint64_t kMinScansChecked = 40;
-/// Intervals between scans without point times that may be shorter than a sweep.
+/// Share of the intervals between scans without point times that may be shorter than a sweep.
 constexpr double kUsualShare = 0.1;
 constexpr std::uint64_t kScansPerGround = 5;
 constexpr std::size_t kGrounds = 40;
@@ -66,6 +67,17 @@ Eigen::Vector3d median(std::vector<Eigen::Vector3d> vectors) {
     middle[axis] = (*half)[axis];
   }
   return middle.normalized();
+}
+
+/// The mean of the intervals around the shortest ones, of which stamps that jitter make some too short.
+Duration shortest_usual(std::vector<Duration> intervals) {
+  std::ranges::sort(intervals);
+  Duration usual = intervals[static_cast<std::size_t>(kUsualShare * static_cast<double>(intervals.size()))];
+  for (int pass = 0; pass < 3; ++pass) {
+    const auto end = std::ranges::upper_bound(intervals, usual * 3 / 2);
+    usual = std::accumulate(intervals.begin(), end, Duration{}) / (end - intervals.begin());
+  }
+  return usual;
 }
 
 }  // namespace
@@ -268,11 +280,7 @@ void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
   if (usual_interval_) return count_scan(interval, *usual_interval_);
   first_intervals_.push_back(interval);
   if (first_intervals_.size() < kMinScansChecked) return;
-  std::vector<Duration> sorted = first_intervals_;
-  const auto usual =
-      sorted.begin() + static_cast<std::ptrdiff_t>(kUsualShare * static_cast<double>(sorted.size()));
-  std::ranges::nth_element(sorted, usual);
-  usual_interval_ = std::max(*usual, kShortestSweep);
+  usual_interval_ = std::max(shortest_usual(first_intervals_), kShortestSweep);
   for (const Duration first : first_intervals_) count_scan(first, *usual_interval_);
 }
 

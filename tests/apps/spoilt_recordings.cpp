@@ -195,9 +195,10 @@ std::vector<Spoilt> of_lidar() {
       {"scans_at_half_rate", keep_if<Scan>([](std::size_t k, double) { return k % 2 == 0; }),
        "scans are missing"},
       {"scans_dropped_without_point_times",
-       [random](Recording& recording) mutable {
+       [](Recording& recording) {
+         std::mt19937 arrivals(2);
          each<Scan>([](Scan& scan) { scan.has_time = false; })(recording);
-         keep_if<Scan>([&](std::size_t, double) { return random() % 6 == 0; })(recording);
+         keep_if<Scan>([&](std::size_t, double) { return arrivals() % 6 == 0; })(recording);
        },
        "scans are missing"},
       {"points_without_range", points([random](sensor::ScanPoint& point) mutable {

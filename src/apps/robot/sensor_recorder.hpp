@@ -11,7 +11,7 @@
 
 namespace fleetmap::apps {
 
-/// QoS with which the topic's publisher here offers it.
+/// Durability with which the topic is published here.
 recording::Durability durability_of(const bus::Topic& topic);
 
 /// Writes what arrives on the sensor topics, and what the robot publishes for ROS 2, into a bag.
