@@ -129,7 +129,7 @@ std::vector<std::string> findings_of_a_turn(const PerceptionConfig& config, floa
   network_config.perception_time = 50ms;
   const auto network = bus::LocalNetwork::create(network_config).value();
   bus::Bus& bus = network->add_robot(AgentId::parse("r1").value());
-  Perception perception(config, bus, [](Perceived&&) {});
+  Perception perception(config, bus, [](ScanEstimate&&) {});
   const testing::SyntheticDrive drive({{4.0, 0.0, 0.6}});
   const auto world = testing::yard_world();
   testing::ScanOptions options;
