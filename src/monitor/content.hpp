@@ -91,7 +91,7 @@ class Content {
   Result<std::shared_ptr<const QuantisedCloud>> cloud(const graph::Node& node);
 
  private:
-  /// Where a submap is, and the hash by which it is named.
+  /// A submap's node, and the hash by which the submap is named.
   struct Source {
     NodeId node;
     ContentHash hash{};

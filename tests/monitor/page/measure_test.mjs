@@ -46,7 +46,7 @@ seen = true;
 click(1, 1, 1);
 assert.doesNotMatch(text(), /distance/, 'a third point begins anew');
 
-// Where nothing ties a frame to a place on Earth it has no coordinates there, and no distance to another frame.
+// A frame that nothing ties to a place on Earth has no coordinates there, and no distance to another frame.
 floating = 1;
 click(4, 1, 1);
 assert.match(text(), /BPlace on Earth not known: no GPS fix.*on the map 4\.00, 1\.00, 1\.00 m/);
