@@ -91,7 +91,7 @@ class Content {
   Result<std::shared_ptr<const QuantisedCloud>> cloud(const graph::Node& node);
 
  private:
-  /// A submap's node, and the hash that names it.
+  /// A submap's node, and the hash by which the submap is named.
   struct Source {
     NodeId node;
     ContentHash hash{};

@@ -137,7 +137,7 @@ async function untilR1Drove(page, before, more) {
 }
 
 /** A robot that is held stays where it is while the other one drives on. */
-async function standsStill(page) {
+async function staysInPlace(page) {
   const braked = await untilR1Drove(page, await untilR1Drove(page, [0, 0], 0), 1);
   const later = await untilR1Drove(page, braked, 3);
   assert.equal(later[1], braked[1], `r2 is held, and made ${later[1] - braked[1]} nodes while r1 made 3`);
@@ -255,7 +255,7 @@ async function testVirtual(browser) {
       await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may/);
       await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
       await mapGrows(page);
-      await holdAndResume(page, standsStill);
+      await holdAndResume(page, staysInPlace);
       await giveAndCallHome(page);
       await shot(page, 'virtual');
     });

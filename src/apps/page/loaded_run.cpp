@@ -34,7 +34,7 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
   for (const auto& [maker, holding] : by_maker) holdings.push_back(holding);
 }
 
-/// Removes the robots in `without`: what they did, and what others did with it.
+/// Removes what the robots in `without` did, and what others did with it.
 void leave_out(std::span<const AgentId> without, monitor::FleetView& view) {
   if (without.empty()) return;
   const auto left_out = [&](const AgentId& robot) {

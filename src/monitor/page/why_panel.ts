@@ -276,7 +276,7 @@ function lastMinute(state: State): number {
   return times.reduce((max, t) => Math.max(max, t), -Infinity) - kRecent_s;
 }
 
-/** There may be more if the log of one of the two is not here. */
+/** There may be more registrations in a log that is not here. */
 function knownOf({missing_logs}: Pair): string {
   return missing_logs.length > 0 ? ` known here (without those of ${missing_logs.join(' and ')})` : '';
 }

@@ -98,7 +98,7 @@ assert.equal(minute.querySelector('.registration').getAttribute('data-index'), '
 minute.querySelector('#last-minute').click();
 assert.equal(rows().length, 4);
 
-// If the log of one of the two is elsewhere, the numbers are of those that are known.
+// The numbers are of the registrations that are known, if the log of one of the two is elsewhere.
 const page = state({logs: ['r2'], pairs: [pair('r1', 'r2', false, {attempts: 2, missing_logs: ['r1']})]});
 const other = document.createElement('div');
 new WhyPanel(other, actions).show(page);
