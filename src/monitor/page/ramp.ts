@@ -23,7 +23,7 @@ export function turbo(x: number): [number, number, number] {
 export type Tones = [number, number];
 
 /** Tones that stand out from the map's ground. */
-export const tonesOf = (dark: boolean): Tones => (dark ? [-0.15, 0.42] : [-0.4, 0]);
+export const tonesOf = (dark: boolean): Tones => (dark ? [-0.15, 0.42] : [-0.5, 0]);
 
 /** The ramp of a robot: lighter with height, so that shapes show in one colour. */
 export function shaded(colour: THREE.Color, height: number, [low, high]: Tones): [number, number, number] {

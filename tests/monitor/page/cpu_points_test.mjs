@@ -102,7 +102,7 @@ const {style, picture} = mapOf({
 });
 const {r, g, b} = rgbOf('#2f7de1');
 const near = (value, expected) => expected.every((one, k) => Math.abs(value[k] - 255 * one) <= 2);
-assert.ok(near(pixel(picture(), 16, 32), [0.6 * r, 0.6 * g, 0.6 * b]));
+assert.ok(near(pixel(picture(), 16, 32), [0.5 * r, 0.5 * g, 0.5 * b]));
 assert.ok(near(pixel(picture(), 48, 32), [r, g, b]));
 Object.assign(style.highTone, {value: 0.42}); // as on a dark map
 assert.ok(near(pixel(picture(), 48, 32), [r + 0.42 * (1 - r), g + 0.42 * (1 - g), b + 0.42 * (1 - b)]));
