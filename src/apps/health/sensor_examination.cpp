@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -38,6 +39,8 @@ CommandResult<config::RobotConfig> examined_robot(const DoctorOptions& options) 
 bus::DdsBusConfig listener_dds(const config::RobotConfig& robot) {
   bus::DdsBusConfig dds = robot.dds;
   dds.long_range.enabled = dds.short_range.enabled = false;
+  // Fast DDS shares memory among programs of one user, and the drivers are hardly ever root's.
+  if (::geteuid() == 0) dds.onboard.shared_memory = false;
   dds.agent = free_name("doctor", robot.agent.exchange.fleet);
   return dds;
 }
