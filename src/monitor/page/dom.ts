@@ -8,12 +8,22 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) {
-    if (name === 'style') element.style.cssText = value;
-    else element.setAttribute(name, value);
-  }
+  for (const [name, value] of Object.entries(attributes)) setAttribute(element, name, value);
   for (const child of children) if (child) element.append(child);
   return element;
+}
+
+/** The page's own security policy refuses a style that is set as an attribute. */
+export function setAttribute(element: HTMLElement | SVGElement, name: string, value: string): void {
+  if (name === 'style') element.style.cssText = value;
+  else element.setAttribute(name, value);
+}
+
+export function shape(name: string, attributes: Record<string, string | number>, text = ''): SVGElement {
+  const one = document.createElementNS('http://www.w3.org/2000/svg', name) as SVGElement;
+  for (const [key, value] of Object.entries(attributes)) setAttribute(one, key, String(value));
+  if (text) one.textContent = text;
+  return one;
 }
 
 export const dot = (state: State, robot: string) =>

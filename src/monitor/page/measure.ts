@@ -2,9 +2,7 @@ import type * as THREE from 'three';
 import {geoText, toGeo, utmText, type Geo} from './geodesy';
 import type {FleetMap} from './map';
 import {comparable, kNoDistance, kNotGeoreferenced, metres} from './model';
-import {el} from './dom';
-
-const kSvg = 'http://www.w3.org/2000/svg';
+import {el, shape} from './dom';
 
 /** Two clicks on points of the map: distance, height and coordinates. */
 export class Measure {
@@ -73,19 +71,11 @@ export class Measure {
 
   draw(): void {
     const places = this.picked.map(({p}) => this.map.project(p));
-    const shapes: SVGElement[] = [];
-    const shape = (name: string, attributes: Record<string, string | number>, text = '') => {
-      const one = document.createElementNS(kSvg, name);
-      for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, String(value));
-      one.textContent = text;
-      shapes.push(one);
-    };
     const [a, b] = places;
-    if (a && b) shape('line', {x1: a.x, y1: a.y, x2: b.x, y2: b.y});
+    const shapes = a && b ? [shape('line', {x1: a.x, y1: a.y, x2: b.x, y2: b.y})] : [];
     places.forEach((q, k) => {
       if (!q) return;
-      shape('circle', {cx: q.x, cy: q.y, r: 5});
-      shape('text', {x: q.x + 9, y: q.y - 7}, 'AB'[k]);
+      shapes.push(shape('circle', {cx: q.x, cy: q.y, r: 5}), shape('text', {x: q.x + 9, y: q.y - 7}, 'AB'[k]));
     });
     this.overlay.replaceChildren(...shapes);
   }

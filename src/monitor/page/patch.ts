@@ -1,6 +1,8 @@
 // Brings elements up to date in place, so that focus, open menus and scrolling stay, and a screen reader does not read
 // again what has not changed.
 
+import {setAttribute} from './dom';
+
 const isElement = (node: Node): node is HTMLElement => node.nodeType === 1;
 const keyOf = (node: Node) => (isElement(node) ? node.id || node.getAttribute('data-key') || '' : '');
 
@@ -54,7 +56,7 @@ function update(known: Node, next: Node): void {
     return;
   }
   for (const {name} of [...known.attributes]) if (!next.hasAttribute(name)) known.removeAttribute(name);
-  for (const {name, value} of next.attributes) if (known.getAttribute(name) !== value) known.setAttribute(name, value);
+  for (const {name, value} of next.attributes) if (known.getAttribute(name) !== value) setAttribute(known, name, value);
   known.onclick = next.onclick;
   known.onchange = next.onchange;
   patch(known, [...next.childNodes]);

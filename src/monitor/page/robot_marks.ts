@@ -1,10 +1,10 @@
 import * as THREE from 'three';
+import {shape} from './dom';
 import {linksOf} from './links';
 import type {FleetMap} from './map';
 import {colourOf, type FleetNode, isNumber, type Live, type State} from './model';
 import type {Place} from './picking';
 
-const kSvg = 'http://www.w3.org/2000/svg';
 const kLabel_px = 62; // half of the longest label
 const kLine_px = 15;
 const kCorners = 32; // of an ellipse
@@ -152,11 +152,4 @@ const overlap = (a: Box, b: Box) => Math.abs(a.x - b.x) < a.half + b.half && Mat
 
 function label(text: string, x: number, y: number, kind: string): SVGElement {
   return shape('text', {x: x.toFixed(1), y: y.toFixed(1), class: kind}, text);
-}
-
-function shape(name: string, attributes: Record<string, string | number>, text = ''): SVGElement {
-  const one = document.createElementNS(kSvg, name);
-  for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, String(value));
-  if (text) one.textContent = text;
-  return one;
 }

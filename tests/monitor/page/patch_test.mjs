@@ -65,3 +65,13 @@ show(el('h2', {}, 'before'), chart, menu('x'));
 assert.deepEqual([root.children[1], root.children[1].children.length], [chart, 1]);
 assert.equal(select.parentNode, root);
 assert.equal(select.value, 'x');
+
+// The page's security policy refuses a style that is set as an attribute.
+const wide = (px) => el('p', {style: `width:${px}px`}, 'bar');
+show(wide(3));
+const [bar] = root.children;
+const written = {};
+Object.defineProperty(bar, 'style', {value: written});
+show(wide(4));
+assert.equal(root.children[0], bar);
+assert.match(written.cssText, /width: ?4px/);
