@@ -13,6 +13,7 @@
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap::testing {

@@ -14,6 +14,7 @@
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "generated_drive.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
