@@ -22,7 +22,7 @@ std::vector<std::string> map_comments(const store::Store& store, const MapPart& 
   if (!names.empty()) comments.push_back("Robots: " + names);
   if (const auto newest = newest_stamp(store, part.T_map_node))
     comments.push_back("Newest node: " + to_utc(*newest));
-  comments.push_back("Map hash: " + to_hex(map_hash(store, part.T_map_node, config)));
+  comments.push_back("Content hash: " + to_hex(map_hash(store, part.T_map_node, config)));
   return comments;
 }
 

@@ -41,6 +41,8 @@ class McapStorage : public StorageFile {
 
  private:
   Status append(ByteView bytes);
+  /// Ends the recording: nothing more is kept in memory for a file that takes nothing.
+  tl::unexpected<Error> stop();
   Result<std::uint16_t> schema_of(const std::string& type);
   Result<Bytes> packed() const;
   std::string_view compression_name() const;
@@ -49,6 +51,7 @@ class McapStorage : public StorageFile {
   fs::path file_;
   std::ofstream stream_;
   ChunkCompression compression_;
+  bool stopped_ = false;
   std::uint64_t size_ = 0;
   std::uint32_t crc_ = 0;  ///< of all that was appended to the current section
 
@@ -63,9 +66,17 @@ class McapStorage : public StorageFile {
   std::map<std::uint16_t, mcap::MessageIndex> chunk_messages_;
 };
 
+tl::unexpected<Error> McapStorage::stop() {
+  stopped_ = true;
+  chunk_ = {};
+  chunk_times_.reset();
+  chunk_messages_.clear();
+  return failure(file_.string() + ": cannot be written; is the disk full?");
+}
+
 Status McapStorage::append(ByteView bytes) {
   stream_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream_) return failure(file_.string() + ": cannot be written; is the disk full?");
+  if (!stream_) return stop();
   crc_ = static_cast<std::uint32_t>(crc32_z(crc_, bytes.data(), bytes.size()));
   size_ += bytes.size();
   return {};
@@ -102,6 +113,7 @@ Status McapStorage::add_topic(const WrittenTopic& topic) {
 }
 
 Status McapStorage::write(std::size_t topic, std::int64_t received_ns, ByteView cdr) {
+  if (stopped_) return stop();
   const auto channel = static_cast<std::uint16_t>(topic);
   const auto time = static_cast<std::uint64_t>(std::max<std::int64_t>(received_ns, 0));
   const auto sequence = static_cast<std::uint32_t>(++statistics_.channel_messages[channel]);
@@ -161,7 +173,7 @@ Status McapStorage::flush() {
     chunk_messages_.clear();
   }
   stream_.flush();
-  if (!stream_) return failure(file_.string() + ": cannot be written; is the disk full?");
+  if (!stream_) return stop();
   return {};
 }
 
@@ -200,7 +212,7 @@ Status McapStorage::close() {
   if (Status status = append_summary(); !status) return status;
   if (Status status = append(mcap::kMagic); !status) return status;
   stream_.close();
-  if (!stream_) return failure(file_.string() + ": cannot be written; is the disk full?");
+  if (!stream_) return stop();
   return {};
 }
 

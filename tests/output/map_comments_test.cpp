@@ -26,14 +26,14 @@ TEST(MapComments, NameTheOriginAndTheTimeOrThatNobodyKnowsThePlace) {
                   "above the WGS 84 ellipsoid.",
                   StartsWith("CRS: LOCAL_CS[\"East-north-up frame at 49.000000000, 8.400000000 deg"),
                   "Robots: r1, r2", "Newest node: 2026-11-25T18:12:41.000Z",
-                  "Map hash: " + to_hex(map_hash(*store, part.T_map_node, merge))));
+                  "Content hash: " + to_hex(map_hash(*store, part.T_map_node, merge))));
   part.georeferenced = false;
   EXPECT_THAT(map_comments(*store, part, {}, merge),
               ElementsAre(HasSubstr("Nobody knows its place"), HasSubstr("Earth unknown"),
-                          HasSubstr("Robots"), HasSubstr("Newest node"), HasSubstr("Map hash")));
+                          HasSubstr("Robots"), HasSubstr("Newest node"), HasSubstr("Content hash")));
   part.T_map_node.clear();
   EXPECT_THAT(map_comments(*store, part, {}, merge),
-              ElementsAre(HasSubstr("Coordinates"), HasSubstr("CRS"), HasSubstr("Map hash")));
+              ElementsAre(HasSubstr("Coordinates"), HasSubstr("CRS"), HasSubstr("Content hash")));
 }
 
 TEST(MapComments, AreOneShortLineEach) {

@@ -81,7 +81,7 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
   for (const char* name : {"map.ply", "map.pcd"}) {
     const std::string header = testing::file_text(folder_.path() / name).substr(0, 1000);
     for (const char* part : {"north and up of 48.001000000, 11.000000000 deg", "CRS: LOCAL_CS[", "Robots: r1",
-                             "Newest node: ", "Map hash: "})
+                             "Newest node: ", "Content hash: "})
       EXPECT_NE(header.find(part), std::string::npos) << name << ": " << part;
   }
   const auto again =
@@ -119,7 +119,7 @@ TEST_F(ResultsTest, StoreOfAKilledAgentGivesTheSameMap) {
   for (const char* name : {"map.ply", "map.pcd"}) {
     const std::string header = testing::file_text(folder_.path() / name).substr(0, 1000);
     for (const char* part : {"north and up of 48.001000000, 11.000000000 deg", "CRS: LOCAL_CS[", "Robots: r1",
-                             "Newest node: ", "Map hash: "})
+                             "Newest node: ", "Content hash: "})
       EXPECT_NE(header.find(part), std::string::npos) << name << ": " << part;
   }
   EXPECT_EQ(recipe->merge.voxel_m, 0.25);

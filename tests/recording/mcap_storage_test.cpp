@@ -74,7 +74,11 @@ TEST_F(McapStorageTest, AFullDiskIsNamed) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   auto storage = create_mcap_storage("/dev/full", ChunkCompression::kNone);
   ASSERT_TRUE(storage);
+  ASSERT_TRUE((*storage)->write(0, 1, Bytes(100)));
   EXPECT_THAT((*storage)->flush().error().message, HasSubstr("is the disk full?"));
+  const Status later = (*storage)->write(0, 2, Bytes(100));
+  ASSERT_FALSE(later) << "it would be kept in memory for ever";
+  EXPECT_THAT(later.error().message, HasSubstr("is the disk full?"));
   EXPECT_THAT(create_mcap_storage(folder_.path() / "none/a.mcap", ChunkCompression::kNone).error().message,
               HasSubstr("none/a.mcap: cannot be written"));
 }

@@ -37,8 +37,9 @@ void LiveOdometry::finish(const Job& job) {
 }
 
 std::vector<std::string> LiveOdometry::failures() const {
-  return odometry_ && idle() ? odometry_->run().failures(odometry_->run().refused)
-                             : std::vector<std::string>();
+  // Without the scans that a slow computer left out it may well lose its way.
+  if (!odometry_ || !idle() || inputs_.dropped() > 0) return {};
+  return odometry_->run().failures(odometry_->run().refused);
 }
 
 std::vector<std::string> LiveOdometry::notes() const {
@@ -49,7 +50,7 @@ std::vector<std::string> LiveOdometry::notes() const {
   if (inputs_.dropped() > 0) {
     notes.push_back(
         fmt::format("{} of {} scans came faster than this computer works on them; motions were compared "
-                    "without them",
+                    "without them, and whether the odometry keeps its way was not checked",
                     inputs_.dropped(), scans_));
   }
   return notes;

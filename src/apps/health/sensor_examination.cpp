@@ -52,17 +52,17 @@ agent::PerceptionConfig with_own_fixes(agent::PerceptionConfig config) {
   return config;
 }
 
-/// Reasons why no fix is heard of a GPS that this program reads itself; empty if one is.
+/// Troubles of the devices that this program reads itself, and why no fix is heard of a GPS among them.
 std::vector<std::string> device_findings(const std::vector<std::unique_ptr<DeviceInput>>& devices,
                                          const agent::DeviceConfig& config, std::size_t fixes) {
   std::vector<std::string> findings;
   const bool expected = config.nmea || config.gpsd || (config.mavlink && config.mavlink_gps);
-  if (fixes > 0 || !expected) return findings;
+  const std::string consequence = expected && fixes == 0 ? "no fix is heard: " : "";
   for (const auto& device : devices) {
     if (const std::string trouble = device->trouble(); !trouble.empty())
-      findings.push_back("no fix is heard: " + trouble);
+      findings.push_back(consequence + trouble);
   }
-  if (config.gpsd && findings.empty()) {
+  if (config.gpsd && fixes == 0 && findings.empty()) {
     findings.push_back(fmt::format(
         "no fix is heard: gpsd at {} sends no position (TPV with a time). Connect a receiver to it (gpsd -n "
         "DEVICE; cgps shows what it receives), under open sky",

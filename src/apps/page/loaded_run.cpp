@@ -1,6 +1,7 @@
 #include "loaded_run.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 
 #include "fleetmap/core/paths.hpp"
@@ -103,6 +104,10 @@ monitor::FleetView view_of(const store::Store& store, const output::Results& res
 void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView& view) {
   const fs::path file = folder / output::kRegistrationsFile;
   if (output::parts_of(file).empty()) return;
+  if (!std::ifstream(file)) {
+    view.notes.push_back(file.string() + " cannot be read: may this user read it?");
+    return;
+  }
   view.logs.push_back(by);
   const output::Registrations read = output::read_registrations(file);
   if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));

@@ -39,9 +39,10 @@ SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorT
   }
   for (const bus::Topic& topic : recorded) {
     subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
+      if (failed_) return;
       const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr, durability_of(topic));
-      if (!written && !std::exchange(failed_, true))
-        spdlog::error("recording stopped: {}", written.error().message);
+      failed_ = !written;
+      if (failed_) spdlog::error("recording stopped: {}", written.error().message);
     }));
   }
 }

@@ -117,7 +117,7 @@ export class RobotMarks {
         d: 'M 13 0 L -8 8.5 L -4 0 L -8 -8.5 Z',
         transform: `translate(${x.toFixed(1)} ${y.toFixed(1)}) rotate(${angle.toFixed(1)})`,
         class: 'robot-mark',
-        'data-robot': robot,
+        'data-mark': robot,
         style: `fill:${fill};stroke:${stroke}`,
       }),
       label(silent ? `${robot} (lost)` : robot, x + 12, y - 10, 'robot-name'),

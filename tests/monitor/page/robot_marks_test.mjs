@@ -11,7 +11,7 @@ let behind = -1; // x of what the camera does not see
 const map = {project: (p) => (p.x === behind ? undefined : {x: 10 * p.x, y: -10 * p.y, depth: 0})};
 const marks = new RobotMarks(map, overlay);
 const all = (selector) => [...overlay.querySelectorAll(selector)];
-const marksOf = (id) => overlay.querySelector(`[data-robot=${id}]`);
+const marksOf = (id) => overlay.querySelector(`[data-mark=${id}]`);
 const labels = () => all('text.robot-name').map((one) => one.textContent);
 
 const north = Math.SQRT1_2; // of a quaternion that turns by 90 degrees
