@@ -95,7 +95,7 @@ TEST_F(SensorCombinations, EachHasItsAccuracy) {
     SCOPED_TRACE(combination.name);
     Recording recording = good_;
     combination.change(recording);
-    const Outcome outcome = run("combination", recording);
+    const Outcome outcome = run(combination.name, recording);
     std::cout << std::left << std::setw(26) << combination.name << std::fixed << std::setprecision(3)
               << "shape " << outcome.shape << " m, place " << outcome.place << " m\n";
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
