@@ -24,6 +24,7 @@ export class RobotMarks {
   private marks: Mark[] = [];
   private live?: Live;
   private heardAt = 0;
+  private drawn = '';
   private now = true; // the marks are of the present, not of an earlier time of the mission
 
   constructor(
@@ -67,7 +68,7 @@ export class RobotMarks {
 
   /** After each picture of the map. */
   draw(): void {
-    if (!this.shown) return this.overlay.replaceChildren();
+    if (!this.shown) return this.replace([]);
     const places = new Map(this.marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
     const links = this.now && this.live ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
     const lines: SVGElement[] = [],
@@ -92,7 +93,15 @@ export class RobotMarks {
       const place = places.get(mark.robot);
       return place ? this.markOf(mark, place, silent.has(mark.robot)) : [];
     });
-    this.overlay.replaceChildren(...lines, ...words, ...robots);
+    this.replace([...lines, ...words, ...robots]);
+  }
+
+  /** What is drawn anew over the canvas makes the browser compose the whole map again. */
+  private replace(shapes: SVGElement[]): void {
+    const drawn = shapes.map((one) => one.outerHTML).join('');
+    if (drawn === this.drawn) return;
+    this.drawn = drawn;
+    this.overlay.replaceChildren(...shapes);
   }
 
   /** A place for the middle of a label that the map's sides do not cut. */
