@@ -179,26 +179,13 @@ async function giveAndCallHome(page) {
 async function testVirtual(browser) {
   const tokenFile = join(folder, 'token');
   writeFileSync(tokenFile, kToken);
+  // So slow that rows are left when the page has done with the robots.
+  const settings = ['max_time=1800', 'mission.speed=0.4'].flatMap((one) => ['--set', one]);
+  const served = ['--monitor', '0', '--monitor-token-file', tokenFile];
+  const farm = 'config/fleets/farm_small.yaml';
   const run = spawn(
     fleetmap,
-    [
-      'run',
-      '-c',
-      'config/fleets/farm_small.yaml',
-      '--agents',
-      '2',
-      '--set',
-      'max_time=1800',
-      // So slow that rows are left when the page has done with the robots.
-      '--set',
-      'mission.speed=0.4',
-      '--out',
-      join(folder, 'virtual'),
-      '--monitor',
-      '0',
-      '--monitor-token-file',
-      tokenFile,
-    ],
+    ['run', '-c', farm, '--agents', '2', ...settings, '--out', join(folder, 'virtual'), ...served],
     {cwd: fileURLToPath(new URL('../..', import.meta.url)), stdio: ['ignore', 'pipe', 'pipe']},
   );
   try {
