@@ -116,7 +116,7 @@ TEST(SensorListenerMotions, ARobotThatStandsIsToldThatNothingWasCompared) {
 
 TEST(SensorListenerMotions, TheWrongSensorIsNamed) {
   using sensor::Imu, sensor::Scan, sensor::Wheel;
-  constexpr double kDegree = std::numbers::pi / 180.0;
+  static constexpr double kDegree = std::numbers::pi / 180.0;
   const std::vector<std::pair<std::string, std::function<void(recording::Sample&)>>> cases{
       {"deg/s", each<Imu>([](Imu& imu) { imu.angular_velocity /= kDegree; })},
       {"the sign of its z axis is wrong", each<Imu>([](Imu& imu) { imu.angular_velocity.z() *= -1.0; })},
