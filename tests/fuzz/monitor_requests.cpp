@@ -19,7 +19,8 @@ struct Robot {
                                config.token = kToken;
                                return config;
                              }(),
-                             [](const NodeId&) { return Result<cloud::PointCloud>(); }, kPage};
+                             [](const NodeId&, const ContentHash&) { return Result<cloud::PointCloud>(); },
+                             kPage};
   int orders = 0;
   Robot() {
     state.cookie = "fleetmap_80";
