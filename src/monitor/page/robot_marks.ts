@@ -96,7 +96,7 @@ export class RobotMarks {
     this.replace([...lines, ...words, ...robots]);
   }
 
-  /** What is drawn anew over the canvas makes the browser compose the whole map again. */
+  /** Shapes that are drawn anew over the canvas make the browser compose the whole map again. */
   private replace(shapes: SVGElement[]): void {
     const drawn = shapes.map((one) => one.outerHTML).join('');
     if (drawn === this.drawn) return;
