@@ -3,44 +3,17 @@
 //   node las_readers_test.mjs FLEETMAP FOLDER
 // Exit code 77: skipped, since npm cannot install the readers into FOLDER.
 import assert from 'node:assert/strict';
-import {spawnSync} from 'node:child_process';
-import {copyFileSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
-import {createRequire} from 'node:module';
+import {mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {dirname, join, resolve} from 'node:path';
 import {fileURLToPath, pathToFileURL} from 'node:url';
+import {installed, installReaders, run} from '../../support/npm_readers.mjs';
 
-const [fleetmap, installed] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
-mkdirSync(installed, {recursive: true});
-for (const file of ['package.json', 'package-lock.json']) copyFileSync(join(here, file), join(installed, file));
-const npm = spawnSync(
-  'npm',
-  [
-    'ci',
-    '--ignore-scripts',
-    '--no-audit',
-    '--no-fund',
-    '--prefer-offline',
-    '--fetch-retries=1',
-    '--fetch-timeout=20000',
-  ],
-  {cwd: installed, encoding: 'utf8', timeout: 120_000},
-);
-if (npm.status !== 0) {
-  console.log(`skipped: npm cannot install the readers: ${npm.stderr}`);
-  process.exit(77);
-}
-const {Las} = createRequire(resolve(installed, 'package.json'))('copc');
+const {Las} = installReaders(import.meta.url)('copc');
 const loadersGl = pathToFileURL(join(resolve(installed), 'node_modules/@loaders.gl/las/dist/index.js'));
 const {LAZRsLoader} = await import(loadersGl.href);
 const folder = mkdtempSync(join(tmpdir(), 'fleetmap_las_'));
-
-function run(...args) {
-  const done = spawnSync(fleetmap, args, {encoding: 'utf8', timeout: 300_000});
-  assert.equal(done.status, 0, `${args.join(' ')}: ${done.stderr}`);
-  return done.stdout;
-}
 
 /** Header, records by name, and the points' dimensions as functions of an index. */
 async function readLas(file) {

@@ -3,36 +3,15 @@
 //   node mcap_readers_test.mjs FLEETMAP FOLDER
 // Exit code 77: skipped, since npm cannot install the readers into FOLDER.
 import assert from 'node:assert/strict';
-import {spawnSync} from 'node:child_process';
-import {copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
-import {dirname, join, resolve} from 'node:path';
+import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {crc32} from 'node:zlib';
+import {installReaders, run} from '../../support/npm_readers.mjs';
 
-const [fleetmap, installed] = process.argv.slice(2);
-const here = dirname(fileURLToPath(import.meta.url));
-mkdirSync(installed, {recursive: true});
-for (const file of ['package.json', 'package-lock.json']) copyFileSync(join(here, file), join(installed, file));
-const npm = spawnSync(
-  'npm',
-  [
-    'ci',
-    '--ignore-scripts',
-    '--no-audit',
-    '--no-fund',
-    '--prefer-offline',
-    '--fetch-retries=1',
-    '--fetch-timeout=20000',
-  ],
-  {cwd: installed, encoding: 'utf8', timeout: 120_000},
-);
-if (npm.status !== 0) {
-  console.log(`skipped: npm cannot install the readers: ${npm.stderr}`);
-  process.exit(77);
-}
-const require = createRequire(resolve(installed, 'package.json'));
+const require = installReaders(import.meta.url);
 const {McapIndexedReader, McapStreamReader} = require('@mcap/core');
 const {parse} = require('@foxglove/rosmsg');
 const {ros2humble} = require('@foxglove/rosmsg-msgs-common');
@@ -45,14 +24,10 @@ const decompressHandlers = {
   zstd: (bytes, size) => zstd.decompress(bytes, Number(size)),
   lz4: (bytes, size) => lz4(bytes, Number(size)),
 };
+const here = dirname(fileURLToPath(import.meta.url));
 const checksum = crc32 ?? crcOf;
 const folder = mkdtempSync(join(tmpdir(), 'fleetmap_mcap_'));
 const LATCHED = ['/tf_static', '/fleetmap/path', '/fleetmap/markers', '/fleetmap/map'];
-
-function run(...args) {
-  const done = spawnSync(fleetmap, args, {encoding: 'utf8', timeout: 300_000});
-  assert.equal(done.status, 0, `${args.join(' ')}: ${done.stderr}`);
-}
 
 /** Members of a type, without constants; the first of a schema's definitions has no name. */
 const members = ({definitions}) =>
