@@ -7,7 +7,7 @@
 namespace fleetmap::agent {
 namespace {
 
-using testing::expect_refused;
+using fleetmap::testing::expect_refused;
 
 AgentConfig valid() {
   AgentConfig config;

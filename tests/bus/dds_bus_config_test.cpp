@@ -7,8 +7,8 @@
 namespace fleetmap::bus {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
 
 DdsBusConfig valid() {
   DdsBusConfig config;

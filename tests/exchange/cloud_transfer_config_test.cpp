@@ -10,10 +10,10 @@
 namespace fleetmap::exchange {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
-using testing::kInfinity;
-using testing::kNaN;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
+using fleetmap::testing::kInfinity;
+using fleetmap::testing::kNaN;
 
 using Config = CloudTransferConfig;
 

@@ -7,8 +7,8 @@
 namespace fleetmap::exchange {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
 
 using Config = ReconcileConfig;
 

@@ -7,8 +7,8 @@
 namespace fleetmap::graph {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
 
 TEST(PlacementConfig, TheFleetsGraphIsCheckedWhateverTheMethod) {
   for (const PlacementMethod method : {PlacementMethod::graph, PlacementMethod::paper}) {

@@ -9,8 +9,8 @@
 namespace fleetmap::monitor {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
 
 using Config = ServerConfig;
 

@@ -9,10 +9,10 @@
 namespace fleetmap::odometry {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
-using testing::kInfinity;
-using testing::kNaN;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
+using fleetmap::testing::kInfinity;
+using fleetmap::testing::kNaN;
 
 using Config = LoamConfig;
 

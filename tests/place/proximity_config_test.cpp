@@ -7,10 +7,10 @@
 namespace fleetmap::place {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
-using testing::kInfinity;
-using testing::kNaN;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
+using fleetmap::testing::kInfinity;
+using fleetmap::testing::kNaN;
 
 using Config = ProximityConfig;
 

@@ -7,9 +7,9 @@
 namespace fleetmap::registration {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_refused;
-using testing::kNaN;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_refused;
+using fleetmap::testing::kNaN;
 
 using Config = PaperConfig;
 

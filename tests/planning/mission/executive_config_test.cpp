@@ -7,11 +7,11 @@
 namespace fleetmap::planning {
 namespace {
 
-using testing::expect_accepted;
-using testing::expect_not_negative;
-using testing::expect_positive;
-using testing::expect_refused;
-using testing::kNaN;
+using fleetmap::testing::expect_accepted;
+using fleetmap::testing::expect_not_negative;
+using fleetmap::testing::expect_positive;
+using fleetmap::testing::expect_refused;
+using fleetmap::testing::kNaN;
 
 using Config = ExecutiveConfig;
 
