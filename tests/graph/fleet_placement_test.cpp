@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,23 @@ TEST(FleetPlacement, BetterThanTheLeastRmseOfThePaper) {
     paper_error += joint_error(fleet, place_by_min_rmse(fleet.nodes, fleet.alignments, fleet.site));
   }
   expect_at_most(fleet_error / paper_error, 0.61, "joint error over that of the paper", seeds);
+}
+
+TEST(FleetPlacement, FixesOfCentimetresDecideOverAWrongHeading) {
+  SimulatedFleetConfig config;
+  config.robots = 1;
+  config.gps_sigma = 0.02;
+  config.yaw_sigma = 2.5 * testing::kDegree;
+  SimulatedFleet fleet(1, config);
+  // The headings of a filter err alike, by less than it states.
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(2.5 * testing::kDegree, Eigen::Vector3d::UnitZ()));
+  for (Node& node : fleet.nodes) node.G->q_enu_base = turned * node.G->q_enu_base;
+  const Placement placement = place(fleet);
+  double squares = 0.0;
+  for (const auto& [id, T] : placement.T_enu_node)
+    squares += (T.translation() - fleet.truth.at(id).translation()).head<2>().squaredNorm();
+  expect_at_most(std::sqrt(squares / static_cast<double>(placement.T_enu_node.size())), 0.08,
+                 "place of nodes with RTK, m", 1);
 }
 
 TEST(FleetPlacement, SameSetSameBitsWhateverTheOrder) {

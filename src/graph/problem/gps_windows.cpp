@@ -65,13 +65,15 @@ double heading_variance(const GpsWindow& window, const FleetPlacementConfig& con
 
 /// Variance of the position in a window by an error of G's heading that lasts longer than the window. It
 /// rotates each window's track alike, so it is multiplied by the number of windows that share it, `windows`
-/// at most.
+/// at most. Before that it is at most the filter's own variance of the position: RTK fixes hold the track
+/// however wrong the heading is.
 Eigen::Vector3d variance_by_heading(const GpsWindow& window, const Eigen::Vector3d& moved_enu, double seconds,
                                     std::size_t windows) {
   const double lasts = window.variance(5) / kReckoningTurn;  // s
   const double shared = std::clamp(lasts / std::max(1.0, seconds), 1.0, static_cast<double>(windows));
   const Eigen::Vector3d across(moved_enu.y(), moved_enu.x(), 0.0);
-  return shared * window.variance(5) * across.cwiseAbs2();
+  const Eigen::Vector3d by_heading = window.variance(5) * across.cwiseAbs2();
+  return shared * by_heading.cwiseMin(window.variance.head<3>());
 }
 
 }  // namespace
