@@ -20,6 +20,16 @@ bool ends_within_a_line(const std::filesystem::path& path) {
   return in.get() != '\n';
 }
 
+/// As a power cut at the file's first line leaves it.
+bool holds_a_torn_header(const std::filesystem::path& path, const std::string& header) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (error || bytes > header.size()) return false;
+  std::string text(bytes, '\0');
+  std::ifstream(path, std::ios::binary).read(text.data(), static_cast<std::streamsize>(bytes));
+  return header.starts_with(text);
+}
+
 }  // namespace
 
 std::filesystem::path part_before(const std::filesystem::path& file) { return file.string() + ".before"; }
@@ -36,6 +46,7 @@ Result<LineFile> LineFile::open(const std::filesystem::path& path, std::ios::ope
   LineFile file(path, std::move(format));
   std::error_code none;
   if (mode == std::ios::trunc) std::filesystem::remove(part_before(path), none);
+  if (holds_a_torn_header(path, file.format_.header)) mode = std::ios::trunc;
   const bool cut_off = mode != std::ios::trunc && ends_within_a_line(path);
   file.out_.open(path, mode);
   if (cut_off) file.out_ << '\n' << std::flush;

@@ -88,5 +88,17 @@ TEST(LineFile, ALineThatWasCutOffIsEnded) {
   EXPECT_EQ(testing::file_text(path), "first\nsec\nthird\n");
 }
 
+TEST(LineFile, AHeaderThatWasCutOffIsWrittenAnew) {
+  const testing::TemporaryFolder folder;
+  for (const char* left : {"", "target,sou", "target,source"}) {
+    const auto path = folder.write("lines.csv", left);
+    ASSERT_TRUE(LineFile::open(path, std::ios::app, {100, "target,source"}).value().add("1,2"));
+    EXPECT_EQ(testing::file_text(path), "target,source\n1,2\n") << left;
+  }
+  const auto other = folder.write("lines.csv", "target\n1");
+  ASSERT_TRUE(LineFile::open(other, std::ios::app, {100, "target,source"}).value().add("2"));
+  EXPECT_EQ(testing::file_text(other), "target\n1\n2\n") << "its header is whole, and another";
+}
+
 }  // namespace
 }  // namespace fleetmap::output

@@ -33,7 +33,12 @@ void add_record_options(CLI::App& command, RecordOptions& options, const std::st
       ->needs(record);
   add_choice(command, "--record-compression", options.format.compression, kCompressions,
              "of the chunks of MCAP; default zstd")
-      ->needs(record);
+      ->needs(record)
+      ->check([&options](const std::string&) {  // after --record-format, wherever that is on the command line
+        return options.format.storage == BagStorage::kSqlite
+                   ? "is of MCAP: with --record-format sqlite3 nothing is compressed"
+                   : "";
+      });
 }
 
 }  // namespace fleetmap::apps

@@ -54,6 +54,7 @@ export class FleetMap {
   private ratio = 0; // device pixels per pixel, now
   private moved = -Infinity; // when the view did, ms
   private still?: ReturnType<typeof setTimeout>;
+  private resting?: ReturnType<typeof setTimeout>; // before a picture that is scheduled
   private ramp?: {key: string; range: [number, number]};
 
   constructor(
@@ -77,6 +78,7 @@ export class FleetMap {
   /** The view has moved. When it stands still it is drawn with all effort. */
   private move(): void {
     this.moved = performance.now();
+    if (this.resting) this.requestFrame();
     this.draw();
     clearTimeout(this.still);
     this.still = setTimeout(() => this.draw(), kStill_ms + 20);
@@ -203,6 +205,15 @@ export class FleetMap {
   draw(): void {
     if (this.scheduled) return;
     this.scheduled = true;
+    const now = performance.now(),
+      rest = now - this.moved < kStill_ms ? 0 : this.pace.rest(now);
+    if (rest > 0) this.resting = setTimeout(() => this.requestFrame(), rest);
+    else this.requestFrame();
+  }
+
+  private requestFrame(): void {
+    clearTimeout(this.resting);
+    this.resting = undefined;
     requestAnimationFrame(() => {
       this.scheduled = false;
       this.render();
@@ -225,6 +236,7 @@ export class FleetMap {
     const range = this.putOnRamp();
     this.submaps.prepare(camera, planar, this.until, moving, effort.share);
     this.drawScene(camera, effort, pixelAtOne / effort.ratio);
+    if (!moving) this.pace.drewStill(now, performance.now());
     let total = 0;
     for (const submap of this.submaps.all.values()) total += Math.max(0, submap.total);
     this.onPicture({

@@ -14,17 +14,20 @@ const kLevels = 3;
 const kMinShare = 1 / 4;
 const kCoarse = 0.6; // pixels that are drawn along a side, of those that there are
 export const kStill_ms = 180; // without a change: the view stands still
+const kStillShare = 1 / 4; // of the time in which a view that stands still is drawn: states arrive all the time
 
 /**
  * Chooses the effort of a picture: all of it while the view stands still. While it moves and frames take longer than
  * 33 ms, first the shading is left out, then the finer pixels and the nodes, then points; each submap then shows its
- * coarser ones. If drawing costs little, as with a graphics card, nothing changes.
+ * coarser ones. If drawing costs little, as with a graphics card, nothing changes. Pictures of a view that stands still
+ * leave three quarters of the time to the rest of the page.
  */
 export class Pace {
   private level = 0; // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
   private share = 1;
   private fast = 0;
   private last?: number;
+  private restsUntil = 0; // ms
 
   /** `minShare`: share of the points that is drawn however long a frame takes. */
   constructor(
@@ -48,6 +51,16 @@ export class Pace {
       ratio: this.level < 2 ? ratio : kCoarse * ratio,
       share: this.share,
     };
+  }
+
+  /** A picture of a view that stands still was drawn from `began` to `ended`, ms. */
+  drewStill(began: number, ended: number): void {
+    this.restsUntil = ended + (ended - began) * (1 / kStillShare - 1);
+  }
+
+  /** Time until the next picture of a view that stands still, ms. */
+  rest(now: number): number {
+    return Math.max(0, this.restsUntil - now);
   }
 
   /** To a frame that took so many ms. */

@@ -32,7 +32,8 @@ TEST(RecordOptions, McapWithZstdUnlessAnotherFormatIsNamed) {
 
 TEST(RecordOptions, RefusesOtherFormatsAndAFormatWithoutAFolder) {
   for (const char* line : {"--record bags --record-format db3", "--record bags --record-compression gzip",
-                           "--record-format mcap", "--record-compression lz4"})
+                           "--record-format mcap", "--record-compression lz4",
+                           "--record-compression lz4 --record bags --record-format sqlite3"})
     EXPECT_THROW(parsed(line), CLI::ParseError) << line;
 }
 
