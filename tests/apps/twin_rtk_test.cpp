@@ -1,4 +1,4 @@
-// A robot whose GPS is an RTK receiver: its map lies as exactly as its fixes, though no sensor tells its heading.
+// A robot with an RTK receiver: its map lies as exactly as its fixes, though no sensor measures its heading.
 #include <gtest/gtest.h>
 
 #include "fleetmap/eval/trajectory.hpp"
