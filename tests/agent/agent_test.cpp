@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "agent/lapping_robot.hpp"
+#include "agent/two_robots.hpp"
 #include "bus/captured_log.hpp"
 #include "fleetmap/core/paths.hpp"
 #include "support/temporary_folder.hpp"
@@ -18,8 +19,6 @@ using fleetmap::testing::LappingRobot;
 using fleetmap::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
-AgentId id(const char* name) { return AgentId::parse(name).value(); }
-
 class AgentTest : public ::testing::Test {
  protected:
   LappingRobot::Options options() const {
@@ -31,9 +30,9 @@ class AgentTest : public ::testing::Test {
   }
   AgentConfig config(const char* name) const {
     AgentConfig config;
-    config.id = id(name);
+    config.id = AgentId::parse(name).value();
     config.directory = folder_.path() / name;
-    config.exchange.fleet = {id("r1"), id("r2")};
+    config.exchange.fleet = {kSelf, kOther};
     config.store.power_safe = false;
     return config;
   }
@@ -45,7 +44,7 @@ class AgentTest : public ::testing::Test {
 TEST_F(AgentTest, ADirectoryThatCannotBeMadeIsNamedWithARemedy) {
   std::ofstream(folder_.path() / "r1") << "a file";
   const auto network = bus::LocalNetwork::create({}).value();
-  const auto agent = Agent::create(config("r1"), network->add_robot(id("r1")));
+  const auto agent = Agent::create(config("r1"), network->add_robot(kSelf));
   ASSERT_FALSE(agent);
   EXPECT_THAT(agent.error().message,
               ::testing::AllOf(HasSubstr((folder_.path() / "r1").string()), HasSubstr("`directory`")));
@@ -107,14 +106,14 @@ TEST_F(AgentTest, AnOrderGivenHereIsObeyedThere) {
   const auto network = bus::LocalNetwork::create({}).value();
   std::vector<std::unique_ptr<Agent>> agents;
   for (const char* name : {"r1", "r2"}) {
-    bus::Bus& bus = network->add_robot(id(name));
-    network->set_position(id(name), {0.0, 0.0, 0.0});
+    bus::Bus& bus = network->add_robot(AgentId::parse(name).value());
+    network->set_position(AgentId::parse(name).value(), {0.0, 0.0, 0.0});
     agents.push_back(Agent::create(config(name), bus).value());
   }
   network->run_until(Stamp{} + 5s);
   EXPECT_FALSE(agents[1]->exchange().hold_in_force());
   agents[0]->give_order(messages::HoldOrder{
-      .stamp = {}, .robot = {}, .issuer = id("r1"), .kind = messages::HoldOrder::Kind::kHold});
+      .stamp = {}, .robot = {}, .issuer = kSelf, .kind = messages::HoldOrder::Kind::kHold});
   network->run_until(Stamp{} + 10s);
   ASSERT_TRUE(agents[1]->exchange().hold_in_force());
   EXPECT_EQ(agents[1]->exchange().hold_in_force()->kind, messages::HoldOrder::Kind::kHold);

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "agent/two_robots.hpp"
+
 namespace fleetmap::agent {
 namespace {
 
 using namespace std::chrono_literals;
-
-const Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
 
 /// A scan at `now`, its odometry and pose at once.
 void see(DriveGuard& guard, Stamp now) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds(20);
 constexpr Duration kGuidePeriod = std::chrono::milliseconds(100);
-const GeoPoint kOrigin = geo_point_from_degrees(39.0, -3.0, 600.0);
+const GeoPoint kFarm = geo_point_from_degrees(39.0, -3.0, 600.0);
 
 template <class T>
 T must(Result<T> result) {
@@ -28,7 +28,7 @@ T must(Result<T> result) {
 
 }  // namespace
 
-DrivenFleet::DrivenFleet(const Options& options) : options_(options), origin_(kOrigin) {
+DrivenFleet::DrivenFleet(const Options& options) : options_(options), origin_(kFarm) {
   files_.write_fleet("network: {long_range: {loss: " + std::to_string(options.long_range_loss) + "}}\n");
   config_ = must(config::load_fleet(files_.path("fleet.yaml"), {}));
   config_.keep_first(options.robots.size());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "agent/two_robots.hpp"
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
@@ -14,11 +15,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-AgentId id(const char* name) { return AgentId::parse(name).value(); }
-
 exchange::Exchange make_exchange(store::Store& store, exchange::CloudClient& cloud_client) {
   exchange::ExchangeConfig config;
-  config.fleet = {id("r1"), id("r2")};
+  config.fleet = {kSelf, kOther};
   config.payload_size = [](const messages::Message& message) { return fleet_codec::encode(message).size(); };
   return exchange::Exchange::make(config, store, cloud_client, {}).value();
 }
@@ -26,24 +25,23 @@ exchange::Exchange make_exchange(store::Store& store, exchange::CloudClient& clo
 TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
   const testing::TemporaryFolder folder;
   const auto network = bus::LocalNetwork::create({}).value();
-  bus::Bus& own = network->add_robot(id("r1"));
-  bus::Bus& other = network->add_robot(id("r2"));
-  network->set_position(id("r1"), {0.0, 0.0, 0.0});
-  network->set_position(id("r2"), {10.0, 0.0, 0.0});
-  auto store = store::Store::open(folder.path() / "store.db", id("r1")).value();
-  loop_closure::CandidateScheduler cloud_client(id("r1"), {});
+  bus::Bus& own = network->add_robot(kSelf);
+  bus::Bus& other = network->add_robot(kOther);
+  network->set_position(kSelf, {0.0, 0.0, 0.0});
+  network->set_position(kOther, {10.0, 0.0, 0.0});
+  auto store = store::Store::open(folder.path() / "store.db", kSelf).value();
+  loop_closure::CandidateScheduler cloud_client(kSelf, {});
   exchange::Exchange exchange = make_exchange(store, cloud_client);
-  FleetLink link(id("r1"), own, exchange, [] {});
+  FleetLink link(kSelf, own, exchange, [] {});
 
   const auto say = [&](const messages::Message& message) {
     other.publish(fleet_codec::topic_of(message), fleet_codec::encode(message));
   };
   int asked = 0;
-  const messages::Message request = messages::ItemRequest{id("r2"), id("r1"), {{id("r1"), 0, 1}}, {}};
-  const bus::Handle heard =
-      other.subscribe(fleet_codec::topic_of(messages::ItemRequest{id("r1"), id("r2"), {}, {}}),
-                      [&](const Bytes&) { ++asked; });
-  say(messages::Digest{id("r2"), {{id("r2"), 0, 3}}, {}, {0}, {}});
+  const messages::Message request = messages::ItemRequest{kOther, kSelf, {{kSelf, 0, 1}}, {}};
+  const bus::Handle heard = other.subscribe(
+      fleet_codec::topic_of(messages::ItemRequest{kSelf, kOther, {}, {}}), [&](const Bytes&) { ++asked; });
+  say(messages::Digest{kOther, {{kOther, 0, 3}}, {}, {0}, {}});
   network->run_until(Stamp{} + 120s);
   EXPECT_GE(asked, 2) << "r1 asks for what it lacks, again and again";
   EXPECT_EQ(link.counters().last_useful, Stamp{});
@@ -85,17 +83,17 @@ class TalkativeRadio final : public bus::Bus {
 std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   const testing::TemporaryFolder folder;
   const auto network = bus::LocalNetwork::create({}).value();
-  TalkativeRadio radio(network->add_robot(id("r1")), bytes_a_tick);
-  network->add_robot(id("r2"));
-  auto store = store::Store::open(folder.path() / "store.db", id("r1")).value();
-  loop_closure::CandidateScheduler cloud_client(id("r1"), {});
+  TalkativeRadio radio(network->add_robot(kSelf), bytes_a_tick);
+  network->add_robot(kOther);
+  auto store = store::Store::open(folder.path() / "store.db", kSelf).value();
+  loop_closure::CandidateScheduler cloud_client(kSelf, {});
   exchange::Exchange exchange = make_exchange(store, cloud_client);
-  const NodeId node{id("r1"), 0};
-  EXPECT_TRUE(store.put_node_with_submap(testing::make_node(id("r1"), 0, Bytes(100, 1)), Bytes(100, 1)));
+  const NodeId node{kSelf, 0};
+  EXPECT_TRUE(store.put_node_with_submap(testing::make_node(kSelf, 0, Bytes(100, 1)), Bytes(100, 1)));
   EXPECT_TRUE(exchange.provide_cloud(node, Bytes(25'000, 7), radio.now()));
-  FleetLink link(id("r1"), radio, exchange, [] {});
+  FleetLink link(kSelf, radio, exchange, [] {});
   for (int k = 0; k < 20; ++k) {
-    const messages::Message request = messages::CloudRequest{id("r2"), id("r1"), node, {}};
+    const messages::Message request = messages::CloudRequest{kOther, kSelf, node, {}};
     exchange.on_message(request, radio.now());
     network->run_until(radio.now() + 1s);
   }

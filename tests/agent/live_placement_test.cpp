@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "agent/two_robots.hpp"
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
@@ -11,9 +12,6 @@
 
 namespace fleetmap::agent {
 namespace {
-
-const AgentId kSelf = AgentId::parse("r1").value();
-const AgentId kOther = AgentId::parse("r2").value();
 
 /// Two robots on one straight way to the east, 5 m between nodes, the other's 3 m beside ours. Our odometry
 /// began somewhere else, turned; nobody told where.

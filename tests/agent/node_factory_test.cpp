@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "agent/two_robots.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 
@@ -10,9 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const AgentId kSelf = AgentId::parse("r1").value();
 constexpr std::uint16_t kSession = 4711;
-constexpr Stamp kStart = stamp_from_ns(1'750'000'000'000'000'000);
 
 NodeId name(std::uint32_t k) { return {kSelf, first_seq(kSession) + k}; }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "agent/two_robots.hpp"
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
@@ -24,7 +25,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 namespace topics = ros_codec::topics;
 
-constexpr Stamp kStart = stamp_from_ns(1'750'000'000'000'000'000);
 const Bytes kNoMessage(40, 7);
 
 /// A scan at rest in a yard.

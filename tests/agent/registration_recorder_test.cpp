@@ -5,18 +5,17 @@
 #include <fstream>
 #include <iterator>
 
+#include "agent/two_robots.hpp"
 #include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
-const AgentId kSelf = AgentId::parse("r1").value();
-
 loop_closure::Registration accepted() {
   loop_closure::Registration one;
   one.target.id = {kSelf, 3};
-  one.source.id = {AgentId::parse("r2").value(), 7};
+  one.source.id = {kOther, 7};
   one.done = stamp_from_ns(12'500'000'000);
   one.cpu_seconds = 1.5;
   registration::RegistrationResult result;

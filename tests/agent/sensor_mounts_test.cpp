@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "agent/two_robots.hpp"
+
 namespace fleetmap::agent {
 namespace {
 
@@ -15,7 +17,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Stamp kStart = stamp_from_ns(1'750'000'000'000'000'000);
 constexpr double kDegree = std::numbers::pi / 180.0;
 const Eigen::Quaterniond kPitched(rotation_from_rpy(0.0, 20.0 * kDegree, 0.0));
 const sensor::FrameTransform kMast{"base_link", "mast", {0.2, 0.0, 0.5}};

@@ -7,7 +7,7 @@
 namespace fleetmap::agent {
 namespace {
 
-ScanEstimate scan_at(double seconds, double x) {
+ScanEstimate estimate_at(double seconds, double x) {
   ScanEstimate estimate;
   estimate.odometry.stamp = stamp_from_ns(0) + from_seconds(seconds);
   estimate.odometry.T_odom_base.translation().x() = x;
@@ -19,9 +19,9 @@ TEST(TrackRecorder, EverySessionHasItsOwnOdometryAndAllShareTheGlobalTrack) {
   {
     auto tracks = TrackRecorder::open(folder.path(), 0);
     ASSERT_TRUE(tracks) << tracks.error().message;
-    ScanEstimate estimate = scan_at(1.0, 2.0);
+    ScanEstimate estimate = estimate_at(1.0, 2.0);
     tracks->add(estimate);
-    estimate = scan_at(2.0, 3.0);
+    estimate = estimate_at(2.0, 3.0);
     estimate.G.emplace().stamp = estimate.odometry.stamp;
     estimate.G->position = geo_point_from_degrees(39.0, -3.0, 600.0);
     tracks->add(estimate);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-json evaluated(const fs::path& run) {
+json evaluated_without_overlap(const fs::path& run) {
   testing::Process eval({testing::kProgram, "eval", run.string(), "--no-pictures", "--no-overlap"});
   EXPECT_EQ(eval.wait(), 0) << eval.output();
   std::ifstream file(run / "evaluation.json");
@@ -46,7 +46,7 @@ TEST(Combinations, OneRunOfModeFleetShowsAllFourFromTheSameCandidates) {
   const testing::SmallTwin twin;
   const auto run = twin.run("fleet");
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  const json evaluation = evaluated(run.out);
+  const json evaluation = evaluated_without_overlap(run.out);
   const json& modes = evaluation["modes"];
   ASSERT_EQ(modes.size(), 4u) << modes.dump();
   for (const char* name : {"paper", "correlation_paper", "paper_graph", "fleet"}) {
@@ -66,7 +66,7 @@ TEST(Combinations, OneRunOfModeFleetShowsAllFourFromTheSameCandidates) {
             modes["fleet"]["alignments"]["errors_of_right"]);
   // Without the registrations, the columns that need them are left out, and a note says so.
   for (const char* id : {"r1", "r2", "r3"}) fs::remove(run.out / id / "registrations.db");
-  const json without = evaluated(run.out);
+  const json without = evaluated_without_overlap(run.out);
   EXPECT_EQ(without["modes"].size(), 2u);
   EXPECT_TRUE(without["modes"].contains("fleet") && without["modes"].contains("correlation_paper"));
   EXPECT_THAT(without["notes"].dump(), HasSubstr("registrations.db: is missing"));
@@ -76,7 +76,7 @@ TEST(Combinations, ModePaperRegistersAndPlacesByThePaper) {
   const testing::SmallTwin twin;
   const auto run = twin.run("paper", {"--set", "mode=paper"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  const json evaluation = evaluated(run.out);
+  const json evaluation = evaluated_without_overlap(run.out);
   const json& modes = evaluation["modes"];
   ASSERT_EQ(modes.size(), 4u) << modes.dump();
   EXPECT_EQ(modes["paper"]["fleet"], evaluation["fleet"]);

@@ -24,7 +24,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr auto kPatience = std::chrono::seconds(60);
+constexpr auto kNewsWithin = std::chrono::seconds(60);
 
 class FleetWithKeys : public ::testing::Test {
  protected:
@@ -69,7 +69,7 @@ class FleetWithKeys : public ::testing::Test {
   }
   bool says(std::size_t agent, const std::string& what) const {
     return testing::eventually([&] { return agents_.at(agent)->output().find(what) != std::string::npos; },
-                               kPatience);
+                               kNewsWithin);
   }
   std::string report_of(const char* robot) const {
     return testing::file_text(folder_.path() / robot / "report.json");
@@ -92,7 +92,8 @@ TEST_F(FleetWithKeys, MembersKnowEachOtherAndNameWhoIsNone) {
   EXPECT_THAT(agents_[2]->output(), Not(HasSubstr("heard r")));
   for (std::size_t agent = 0; agent < agents_.size(); ++agent) {
     const char* who = agent < 2 ? "members of the fleet" : "anyone";
-    EXPECT_TRUE(testing::eventually([&] { return who_may_join_of_page(agent) == who; }, kPatience)) << agent;
+    EXPECT_TRUE(testing::eventually([&] { return who_may_join_of_page(agent) == who; }, kNewsWithin))
+        << agent;
     EXPECT_EQ(agents_[agent]->output().find("anyone on the radios") == std::string::npos, agent < 2);
   }
   for (const auto& agent : agents_) agent->signal(SIGTERM);

@@ -23,7 +23,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr auto kPatience = std::chrono::minutes(6);
+constexpr auto kMissionWithin = std::chrono::minutes(6);
 /// Lanes lie 7 m apart; GPS errs by some 1 m, the drawing by 0.5 m, so the ends of a row may be missed.
 constexpr double kBesideRow = 2.5, kMinShare = 0.8;
 
@@ -89,7 +89,8 @@ TEST_F(DdsMission, AgentsDriveAllRowsOfADrawing) {
   const auto is_done = [](const testing::Process& agent, const std::string& id) {
     return agent.output().find(id + ": done, 3 of 3 rows driven by the fleet, 0 to go") != std::string::npos;
   };
-  const bool done = testing::eventually([&] { return is_done(r1, "r1") && is_done(r2, "r2"); }, kPatience);
+  const bool done =
+      testing::eventually([&] { return is_done(r1, "r1") && is_done(r2, "r2"); }, kMissionWithin);
   for (testing::Process* agent : {&r1, &r2}) agent->signal(SIGINT);
   EXPECT_EQ(r1.wait(), 0) << r1.output();
   EXPECT_EQ(r2.wait(), 0) << r2.output();

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/robot_name.hpp"
 #include "bus/dds_domains.hpp"
 #include "support/command_line.hpp"
 #include "support/eventually.hpp"
+#include "support/occurrences.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -20,23 +22,15 @@ namespace {
 constexpr int kRobots = 3;
 constexpr int kRounds = 6;
 /// Well below half the lease of 70 s, after which robots greet each other in any case.
-constexpr auto kPatience = std::chrono::seconds(25);
-
-std::string name(int robot) { return std::string("r").append(std::to_string(robot)); }
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t times = 0;
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++times;
-  return times;
-}
+constexpr auto kHeardWithin = std::chrono::seconds(25);
 
 class DdsRestart : public ::testing::Test {
  protected:
   std::unique_ptr<testing::Process> start(int robot) {
     const std::uint32_t domain = bus::testing::first_test_domain();
-    const std::filesystem::path file = folder_.path() / (name(robot) + ".yaml");
-    std::ofstream(file) << "id: " << name(robot) << "\nfleet: [r1, r2, r3]\n"
-                        << "directory: " << (folder_.path() / name(robot)).string() << '\n'
+    const std::filesystem::path file = folder_.path() / (testing::robot_name(robot) + ".yaml");
+    std::ofstream(file) << "id: " << testing::robot_name(robot) << "\nfleet: [r1, r2, r3]\n"
+                        << "directory: " << (folder_.path() / testing::robot_name(robot)).string() << '\n'
                         << "lidar: {model: vlp16}\n"
                         << "dds:\n  qos: " << FLEETMAP_SOURCE_DIR << "/qos\n"
                         << "  onboard: {domain: " << domain + static_cast<std::uint32_t>(robot) << "}\n"
@@ -48,7 +42,7 @@ class DdsRestart : public ::testing::Test {
   }
   /// Counts the lines of `by` that it heard `robot` on the radio.
   static std::size_t heard(const testing::Process& by, int robot) {
-    return count(by.output(), "long_range: heard " + name(robot) + " ");
+    return testing::occurrences(by.output(), "long_range: heard " + testing::robot_name(robot) + " ");
   }
 
   testing::TemporaryFolder folder_;
@@ -63,7 +57,7 @@ TEST_F(DdsRestart, IsKnownAnewByAllEachTime) {
            heard(*r1, 3) == 1;
   };
   for (std::size_t round = 1; round <= kRounds; ++round) {
-    ASSERT_TRUE(testing::eventually([&] { return all_know(round); }, kPatience))
+    ASSERT_TRUE(testing::eventually([&] { return all_know(round); }, kHeardWithin))
         << "start " << round << "\nr1: " << r1->output() << "\nr2: " << robots[1]->output()
         << "\nr3: " << robots[2]->output();
     robots[0]->signal(SIGKILL);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/kitti_drive.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/command_line.hpp"
@@ -19,8 +20,6 @@
 
 namespace fleetmap {
 namespace {
-
-constexpr const char* kDrive = "kitti_raw_2011_09_26_drive_0005";
 
 std::vector<Pose> poses_of(const std::filesystem::path& file) {
   std::vector<Pose> poses;
@@ -35,8 +34,8 @@ std::vector<Pose> poses_of(const std::filesystem::path& file) {
 class KittiFleet : public ::testing::Test {
  protected:
   void SetUp() override {
-    drive_ = testing::shared_data(kDrive);
-    if (!drive_) GTEST_SKIP() << "recording " << kDrive << " is not here";
+    drive_ = testing::shared_data(testing::kKittiDrive);
+    if (!drive_) GTEST_SKIP() << "recording " << testing::kKittiDrive << " is not here";
     consensus_ = poses_of(*drive_ / "derived/lidar_odometry_consensus_tum_10hz_nominal.txt");
     ASSERT_EQ(consensus_.size(), 154u);
   }

@@ -6,10 +6,21 @@
 #include <utility>
 #include <vector>
 
+#include "fleetmap/agent/perception_config.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "support/synthetic_lidar.hpp"
 
 namespace fleetmap::apps {
+
+/// The time at which a drive starts.
+inline constexpr Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
+
+/// Perception with the mount of the robot's LiDAR.
+inline agent::PerceptionConfig made_robot_perception() {
+  agent::PerceptionConfig config;
+  config.odometry.T_base_lidar = testing::ScanOptions{}.T_base_lidar;
+  return config;
+}
 
 /// A sample and when its driver sends it.
 struct SentSample {

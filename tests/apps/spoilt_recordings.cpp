@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fleetmap/bus/cdr.hpp"
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "sensor_msgs.h"
 
@@ -22,7 +23,7 @@ using sensor::Scan;
 using sensor::Wheel;
 using std::chrono::milliseconds;
 
-constexpr double kG = 9.80665, kDegree = std::numbers::pi / 180.0;
+constexpr double kG = 9.80665;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Keeps of each type of sample what `keeps` says; it gets the sample's number within its type, and the

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
@@ -27,7 +27,6 @@ using testing::Recorded;
 using testing::Recording;
 using testing::Spoilt;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kWorse = 2.0;  // times the error of the good recording
 const std::vector<std::string>& kMounted = testing::kGeneratedMount;
 

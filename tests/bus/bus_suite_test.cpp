@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "bus/fleet.hpp"
+#include "bus/topics.hpp"
 
 namespace fleetmap::bus {
 void PrintTo(const Topic& topic, std::ostream* out) { *out << topic.name; }
@@ -17,13 +18,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using namespace std::chrono_literals;
-
-const Topic kSensor{Link::kOnboard, "rt/points", "sensor_msgs::msg::dds_::PointCloud2_", "sensor"};
-const Topic kState{Link::kOnboard, "rt/odom", "nav_msgs::msg::dds_::Odometry_", "state"};
-const Topic kSmall{Link::kLongRange, "fleetmap/node", "fleetmap::Node", "small"};
-const Topic kCloud{Link::kLongRange, "fleetmap/cloud", "fleetmap::CloudFragment", "cloud"};
-const Topic kControl{Link::kShortRange, "fleetmap/request", "fleetmap::SubmapRequest", "control"};
-const Topic kBulk{Link::kShortRange, "fleetmap/chunk", "fleetmap::SubmapChunk", "bulk"};
 
 class BusSuite : public ::testing::TestWithParam<FleetKind> {
  protected:

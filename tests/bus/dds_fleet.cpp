@@ -7,7 +7,6 @@
 namespace fleetmap::bus::testing {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(60);
 constexpr auto kTurn = std::chrono::milliseconds(1);
 
 /// Robots of this process over the loopback.

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "bus/dds/inbox.hpp"
+#include "bus/deadlines.hpp"
 
 namespace fleetmap::bus {
 namespace {
 
-constexpr auto kAtOnce = Executor::Clock::time_point::min();
+using testing::kAtOnce;
 
 TEST(Executor, timers_that_are_always_due_leave_every_other_turn_to_posted_work) {
   Executor executor;

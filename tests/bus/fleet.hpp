@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <ostream>
@@ -10,6 +11,9 @@
 #include "fleetmap/bus/bus.hpp"
 
 namespace fleetmap::bus::testing {
+
+/// After which a test that waits for robots fails.
+inline constexpr auto kPatience = std::chrono::seconds(60);
 
 struct FleetConfig {
   std::size_t robots = 2;

@@ -11,7 +11,7 @@ double s(HelloPacing::Clock::duration duration) { return std::chrono::duration<d
 
 constexpr std::size_t kBytes = 260;
 constexpr HelloPacing::Answer kToUs{.names_us = true, .joined_before = true};
-const HelloPacing::Clock::time_point kStart = HelloPacing::Clock::time_point(std::chrono::hours(1));
+const HelloPacing::Clock::time_point kNow = HelloPacing::Clock::time_point(std::chrono::hours(1));
 
 TEST(HelloPacing, HellosOfAFleetKeepToTheirPartOfTheRate) {
   for (const bool keys : {false, true}) {
@@ -19,7 +19,7 @@ TEST(HelloPacing, HellosOfAFleetKeepToTheirPartOfTheRate) {
       const HelloPacing pacing({145e3, keys, false});
       const double bits = keys ? 8.0 * 345.0 * 1.5 : 8.0 * kBytes;
       // All robots together send one Hello in each pause of one of them, divided by their number.
-      const double rate = (others + 1.0) * bits / s(pacing.pause_between(others, kBytes, kStart));
+      const double rate = (others + 1.0) * bits / s(pacing.pause_between(others, kBytes, kNow));
       EXPECT_NEAR(rate / 145e3, 0.85, 1e-6);
       const double spread = s(pacing.spread(others));
       EXPECT_LE(spread, 6.0);
@@ -41,16 +41,16 @@ TEST(HelloPacing, ARepetitionWaitsForTheAnswersOfAFleetThatStarts) {
 
 TEST(HelloPacing, ALargeHelloTakesItsTime) {
   const HelloPacing pacing({145e3, false, false});
-  EXPECT_NEAR(s(pacing.pause_between(5.0, 2 * kBytes, kStart)),
-              2.0 * s(pacing.pause_between(5.0, kBytes, kStart)), 1e-8);
+  EXPECT_NEAR(s(pacing.pause_between(5.0, 2 * kBytes, kNow)),
+              2.0 * s(pacing.pause_between(5.0, kBytes, kNow)), 1e-8);
 }
 
 TEST(HelloPacing, OneAnswerOfARobotThatJoinedBeforeShowsAFleet) {
   HelloPacing pacing({145e3, false, false});
-  EXPECT_FALSE(pacing.count_answer({.joined_before = true}, kStart)) << "answers somebody else";
-  EXPECT_TRUE(pacing.count_answer({.names_us = true, .joined_before = true}, kStart));
-  pacing.count_answer({.joined_before = true}, kStart);
-  EXPECT_TRUE(pacing.fleet_is_connected(kStart)) << "its sender is no newcomer";
+  EXPECT_FALSE(pacing.count_answer({.joined_before = true}, kNow)) << "answers somebody else";
+  EXPECT_TRUE(pacing.count_answer({.names_us = true, .joined_before = true}, kNow));
+  pacing.count_answer({.joined_before = true}, kNow);
+  EXPECT_TRUE(pacing.fleet_is_connected(kNow)) << "its sender is no newcomer";
 }
 
 TEST(HelloPacing, PausesDoubleUpToTheLeastOfAnnouncementAndASecondForEachRobot) {
@@ -62,30 +62,30 @@ TEST(HelloPacing, PausesDoubleUpToTheLeastOfAnnouncementAndASecondForEachRobot) 
 
 TEST(HelloPacing, ANewcomerToAConnectedFleetIsFaster) {
   HelloPacing pacing({145e3, false, false});
-  const auto alone = pacing.pause_between(5.0, kBytes, kStart);
+  const auto alone = pacing.pause_between(5.0, kBytes, kNow);
   for (int answer = 0; answer < 9; ++answer)
-    EXPECT_FALSE(pacing.count_answer({.names_us = true}, kStart)) << "it started together with us";
-  EXPECT_TRUE(pacing.count_answer(kToUs, kStart));
-  EXPECT_FALSE(pacing.count_answer(kToUs, kStart)) << "reported once";
-  EXPECT_NEAR(5.0 * s(pacing.pause_between(5.0, kBytes, kStart)), s(alone), 1e-8);
-  EXPECT_NEAR(2.0 * s(pacing.pause_between(5.0, kBytes, kStart + seconds(10))), s(alone), 1e-8)
+    EXPECT_FALSE(pacing.count_answer({.names_us = true}, kNow)) << "it started together with us";
+  EXPECT_TRUE(pacing.count_answer(kToUs, kNow));
+  EXPECT_FALSE(pacing.count_answer(kToUs, kNow)) << "reported once";
+  EXPECT_NEAR(5.0 * s(pacing.pause_between(5.0, kBytes, kNow)), s(alone), 1e-8);
+  EXPECT_NEAR(2.0 * s(pacing.pause_between(5.0, kBytes, kNow + seconds(10))), s(alone), 1e-8)
       << "no newcomer any more";
-  EXPECT_NEAR(s(pacing.pause_after(0, seconds(5), kStart)), HelloPacing::kNewcomerPause, 1e-9);
-  EXPECT_EQ(pacing.pause_after(pacing.quick_hellos(kStart), seconds(5), kStart), seconds(5));
-  const int to_a_connected_fleet = pacing.quick_hellos(kStart);
-  pacing.count_answer({}, kStart);  // another newcomer
-  EXPECT_LT(pacing.quick_hellos(kStart), to_a_connected_fleet);
-  EXPECT_FALSE(pacing.fleet_is_connected(kStart + seconds(10)));
-  EXPECT_TRUE(pacing.fleet_is_connected(kStart + seconds(11)));
-  EXPECT_NEAR(2.0 * s(pacing.pause_between(5.0, kBytes, kStart + seconds(11))), s(alone), 1e-8)
+  EXPECT_NEAR(s(pacing.pause_after(0, seconds(5), kNow)), HelloPacing::kNewcomerPause, 1e-9);
+  EXPECT_EQ(pacing.pause_after(pacing.quick_hellos(kNow), seconds(5), kNow), seconds(5));
+  const int to_a_connected_fleet = pacing.quick_hellos(kNow);
+  pacing.count_answer({}, kNow);  // another newcomer
+  EXPECT_LT(pacing.quick_hellos(kNow), to_a_connected_fleet);
+  EXPECT_FALSE(pacing.fleet_is_connected(kNow + seconds(10)));
+  EXPECT_TRUE(pacing.fleet_is_connected(kNow + seconds(11)));
+  EXPECT_NEAR(2.0 * s(pacing.pause_between(5.0, kBytes, kNow + seconds(11))), s(alone), 1e-8)
       << "it is not the only one";
 }
 
 TEST(HelloPacing, HellosForTheRobotBeforeUsAreNoNewcomers) {
   HelloPacing pacing({145e3, false, false});
-  pacing.count_answer(kToUs, kStart);
-  pacing.count_answer({.names_another = true}, kStart);
-  EXPECT_TRUE(pacing.fleet_is_connected(kStart));
+  pacing.count_answer(kToUs, kNow);
+  pacing.count_answer({.names_another = true}, kNow);
+  EXPECT_TRUE(pacing.fleet_is_connected(kNow));
 }
 
 }  // namespace

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 
+#include "trust/fleet_of_keys.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
+using fleetmap::testing::agent;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::ElementsAre;
-
-AgentId agent(const char* name) { return AgentId::parse(name).value(); }
 
 Introduction introduction(std::uint8_t number) {
   return {.prefix = {1, 15, 3, 4, 5, 6, 7, 8, 9, 10, 11, number},

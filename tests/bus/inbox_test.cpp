@@ -9,7 +9,7 @@ Bytes message(std::uint8_t number, std::size_t size = 1) { return Bytes(size, nu
 
 std::uint8_t number_of(std::optional<Inbox::Message> taken) { return taken ? taken->cdr.front() : 0; }
 
-TopicStats stats_of(const Inbox& inbox) {
+TopicStats counted(const Inbox& inbox) {
   TopicStats stats;
   inbox.add_to(stats);
   return stats;
@@ -33,18 +33,18 @@ TEST(Inbox, DropsTheOldestBeyondItsNumberOfMessages) {
   for (std::uint8_t k = 1; k <= 4; ++k) static_cast<void>(inbox.put(message(k)));
   EXPECT_EQ(number_of(inbox.take()), 3);
   EXPECT_EQ(number_of(inbox.take()), 4);
-  EXPECT_EQ(stats_of(inbox).dropped_messages, 2u);
+  EXPECT_EQ(counted(inbox).dropped_messages, 2u);
 }
 
 TEST(Inbox, DropsTheOldestBeyondItsBytesButKeepsOneMessageOfAnySize) {
   Inbox inbox(10, 100);
   static_cast<void>(inbox.put(message(1, 60)));
   static_cast<void>(inbox.put(message(2, 40)));
-  EXPECT_EQ(stats_of(inbox).dropped_messages, 0u);
+  EXPECT_EQ(counted(inbox).dropped_messages, 0u);
   static_cast<void>(inbox.put(message(3, 1)));
-  EXPECT_EQ(stats_of(inbox).dropped_messages, 1u);
+  EXPECT_EQ(counted(inbox).dropped_messages, 1u);
   static_cast<void>(inbox.put(message(4, 500)));
-  EXPECT_EQ(stats_of(inbox).dropped_messages, 3u);
+  EXPECT_EQ(counted(inbox).dropped_messages, 3u);
   EXPECT_EQ(number_of(inbox.take()), 4);
 }
 
@@ -54,9 +54,9 @@ TEST(Inbox, BytesOfTakenMessagesAreFreeAgain) {
     static_cast<void>(inbox.put(message(k, 100)));
     EXPECT_EQ(number_of(inbox.take()), k);
   }
-  EXPECT_EQ(stats_of(inbox).dropped_messages, 0u);
-  EXPECT_EQ(stats_of(inbox).received_messages, 5u);
-  EXPECT_EQ(stats_of(inbox).received_bytes, 500u);
+  EXPECT_EQ(counted(inbox).dropped_messages, 0u);
+  EXPECT_EQ(counted(inbox).received_messages, 5u);
+  EXPECT_EQ(counted(inbox).received_bytes, 500u);
 }
 
 /// A flood must not fill the executor with callbacks that find nothing.

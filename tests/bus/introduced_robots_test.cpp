@@ -6,21 +6,20 @@
 #include "bus/dds/introductions.hpp"
 #include "bus/dds/rtps_messages.hpp"
 #include "bus/lone_radio.hpp"
+#include "bus/topics.hpp"
 #include "bus/udp_end.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {
-
-Topic topic(const std::string& name) { return {Link::kLongRange, name, "Type", "small"}; }
 
 class IntroducedRobot : public LoneRadio {
  protected:
   void SetUp() override {
     robot_ = &start(robot("r1"));
     for (const char* name : {"fleetmap/status", "fleetmap/hold/r1"})
-      handles_.push_back(robot_->subscribe(topic(name), [this](const Bytes&) { ++came_; }));
+      handles_.push_back(robot_->subscribe(small_topic(name), [this](const Bytes&) { ++came_; }));
     for (const char* name : {"fleetmap/status", "fleetmap/hold/r2", "fleetmap/hold/r3"})
-      robot_->advertise(topic(name));
+      robot_->advertise(small_topic(name));
   }
   /// The Hello of r2 introduces `robots`.
   void send_hello_of_r2(std::vector<Introduction> robots) {
@@ -35,7 +34,8 @@ class IntroducedRobot : public LoneRadio {
     hello.address = {127, 0, 0, 1};
     hello.port = static_cast<std::uint16_t>(own_ + 2 * place);
     hello.seeks = 1;
-    hello.reads = {key_of(topic("fleetmap/status")), key_of(topic(std::string("fleetmap/hold/") + agent))};
+    hello.reads = {key_of(small_topic("fleetmap/status")),
+                   key_of(small_topic(std::string("fleetmap/hold/") + agent))};
     return hello;
   }
   /// As r2 would introduce a robot that started with r1.
@@ -67,8 +67,9 @@ class IntroducedRobot : public LoneRadio {
 TEST_F(IntroducedRobot, IsKnownWithoutAHelloOfItsOwn) {
   introduce_and_wait({introduction("r3", 3)});
   EXPECT_EQ(log_.count("knows r3 at 127.0.0.1:" + std::to_string(own_ + 6) + " from r2"), 1);
-  EXPECT_EQ(robot_->matches(topic("fleetmap/status")).readers, 3u) << "r2, r3, r4";
-  EXPECT_EQ(robot_->matches(topic("fleetmap/hold/r3")).readers, 1u) << "its topics are r1's with its name";
+  EXPECT_EQ(robot_->matches(small_topic("fleetmap/status")).readers, 3u) << "r2, r3, r4";
+  EXPECT_EQ(robot_->matches(small_topic("fleetmap/hold/r3")).readers, 1u)
+      << "its topics are r1's with its name";
   EXPECT_EQ(heard(*robot_), 1u) << "only r2 was heard";
   EXPECT_EQ(log_.count("heard r3"), 0);
 }
@@ -89,7 +90,7 @@ TEST_F(IntroducedRobot, IsHeardOnceItSpeaks) {
 TEST_F(IntroducedRobot, ItsDataIsTakenBeforeItsHello) {
   UdpEnd r3(static_cast<std::uint16_t>(own_ + 6));
   introduce_and_wait({introduction("r3", 3)});
-  const std::uint32_t writer = key_of(topic("fleetmap/status"));
+  const std::uint32_t writer = key_of(small_topic("fleetmap/status"));
   const int before = came_;
   ASSERT_TRUE(run_until([&] {
     Bytes message = rtps_message({0, 1, 0, 0, 1, 2, 3, 4}, ++sent_);

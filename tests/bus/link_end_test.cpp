@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-const Topic kTopic{Link::kLongRange, "node", "Node", "small"};
+const Topic kNodes{Link::kLongRange, "node", "Node", "small"};
 
 /// A link whose topics are in memory: the test delivers what it likes.
 class MemoryLink final : public LinkEnd {
@@ -28,7 +28,7 @@ class MemoryLink final : public LinkEnd {
 
   /// As if `cdr` came from the robot of that name.
   void deliver(std::uint8_t robot, Bytes cdr) {
-    if (inbox_->put(std::move(cdr), {robot})) executor_->post(dispatcher(kTopic.name));
+    if (inbox_->put(std::move(cdr), {robot})) executor_->post(dispatcher(kNodes.name));
   }
 
  private:
@@ -75,9 +75,9 @@ class LinkEndTest : public ::testing::Test {
 };
 
 TEST_F(LinkEndTest, PublishesAndCountsWhatTheWriterRefuses) {
-  link_->publish(kTopic, Bytes{1, 2});
+  link_->publish(kNodes, Bytes{1, 2});
   link_->refuses = true;
-  link_->publish(kTopic, Bytes{3});
+  link_->publish(kNodes, Bytes{3});
   EXPECT_THAT(link_->written, ElementsAre(Bytes{1, 2}));
   EXPECT_EQ(stats().sent_messages, 2u);
   EXPECT_EQ(stats().sent_bytes, 3u);
@@ -92,7 +92,7 @@ TEST_F(LinkEndTest, EachSubscriberGetsEachMessageInOrderWithItsSender) {
       heard.push_back(who + std::to_string(cdr.at(0)) + link_->sender()->str());
     };
   };
-  const Handle one = link_->subscribe(kTopic, note("a")), other = link_->subscribe(kTopic, note("b"));
+  const Handle one = link_->subscribe(kNodes, note("a")), other = link_->subscribe(kNodes, note("b"));
   link_->deliver(1, {7});
   link_->deliver(2, {8});
   EXPECT_TRUE(heard.empty()) << "only on the callback thread";
@@ -105,9 +105,9 @@ TEST_F(LinkEndTest, EachSubscriberGetsEachMessageInOrderWithItsSender) {
 TEST_F(LinkEndTest, TheReaderClosesWithTheLastSubscriber) {
   int heard = 0;
   {
-    const Handle one = link_->subscribe(kTopic, [&](const Bytes&) { ++heard; });
+    const Handle one = link_->subscribe(kNodes, [&](const Bytes&) { ++heard; });
     {
-      const Handle other = link_->subscribe(kTopic, [&](const Bytes&) { ++heard; });
+      const Handle other = link_->subscribe(kNodes, [&](const Bytes&) { ++heard; });
     }
     EXPECT_EQ(link_->opened.closed, 0);
     link_->deliver(1, {7});
@@ -120,28 +120,28 @@ TEST_F(LinkEndTest, TheReaderClosesWithTheLastSubscriber) {
 TEST_F(LinkEndTest, ACallbackMayCancelAnotherSubscription) {
   int heard = 0;
   std::optional<Handle> second;
-  const Handle first = link_->subscribe(kTopic, [&](const Bytes&) { second.reset(); });
-  second = link_->subscribe(kTopic, [&](const Bytes&) { ++heard; });
+  const Handle first = link_->subscribe(kNodes, [&](const Bytes&) { second.reset(); });
+  second = link_->subscribe(kNodes, [&](const Bytes&) { ++heard; });
   link_->deliver(1, {7});
   run_all();
   EXPECT_EQ(heard, 0);
 }
 
 TEST_F(LinkEndTest, ATopicHasOneTypeAndProfile) {
-  link_->advertise(kTopic);
+  link_->advertise(kNodes);
   EXPECT_EQ(link_->opened.writers, 1);
-  Topic other = kTopic;
+  Topic other = kNodes;
   other.type = "Alignment";
   EXPECT_THROW(link_->publish(other, {}), std::logic_error);
-  other = kTopic;
+  other = kNodes;
   other.profile = "bulk";
   EXPECT_THROW(static_cast<void>(link_->subscribe(other, [](const Bytes&) {})), std::logic_error);
 }
 
 TEST_F(LinkEndTest, AnUnknownTopicMatchesNobodyAndLeavesNothing) {
-  Topic unknown = kTopic;
+  Topic unknown = kNodes;
   unknown.name = "unknown";
-  EXPECT_EQ(link_->matches(kTopic).writers, 0u);
+  EXPECT_EQ(link_->matches(kNodes).writers, 0u);
   EXPECT_THROW(link_->advertise(unknown), std::logic_error);
   std::vector<TopicStats> all;
   link_->add_stats(all);
@@ -150,7 +150,7 @@ TEST_F(LinkEndTest, AnUnknownTopicMatchesNobodyAndLeavesNothing) {
 
 TEST_F(LinkEndTest, AHandleMayOutliveTheLink) {
   int heard = 0;
-  Handle handle = link_->subscribe(kTopic, [&](const Bytes&) { ++heard; });
+  Handle handle = link_->subscribe(kNodes, [&](const Bytes&) { ++heard; });
   link_->deliver(1, {7});
   link_.reset();
   run_all();

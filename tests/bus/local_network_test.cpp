@@ -2,19 +2,17 @@
 
 #include <gmock/gmock.h>
 
+#include "bus/topics.hpp"
+#include "trust/fleet_of_keys.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
+using fleetmap::testing::agent;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::kBulk, testing::kCloud, testing::kSmall, testing::kState;
 using namespace std::chrono_literals;
-
-const Topic kSmall{Link::kLongRange, "node", "Node", "small"};
-const Topic kCloud{Link::kLongRange, "cloud", "Cloud", "cloud"};
-const Topic kBulk{Link::kShortRange, "chunk", "Chunk", "bulk"};
-const Topic kState{Link::kOnboard, "odom", "Odometry", "state"};
-
-AgentId agent(const char* name) { return AgentId::parse(name).value(); }
 
 /// Three robots 10 m apart, and what each of them heard of a topic, with the time.
 struct Network {

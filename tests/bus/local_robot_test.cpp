@@ -4,17 +4,17 @@
 
 #include <stdexcept>
 
+#include "bus/topics.hpp"
+#include "trust/fleet_of_keys.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
+using fleetmap::testing::agent;
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-const Topic kNode{Link::kLongRange, "fleetmap/node", "Node", "small"};
-const Topic kState{Link::kOnboard, "rt/odom", "Odometry", "state"};
-
-AgentId agent(const char* name) { return AgentId::parse(name).value(); }
+using testing::kSmall, testing::kState;
 
 /// A robot without a network: what it would transmit is kept.
 class LocalRobotTest : public ::testing::Test {
@@ -49,21 +49,21 @@ class LocalRobotTest : public ::testing::Test {
 };
 
 TEST_F(LocalRobotTest, OwnRadioMessagesAreTransmittedAndNotReceived) {
-  const Handle handle = robot_->subscribe(kNode, [this](const Bytes& cdr) { heard_.push_back(cdr[0]); });
-  robot_->publish(kNode, {1, 2, 3});
+  const Handle handle = robot_->subscribe(kSmall, [this](const Bytes& cdr) { heard_.push_back(cdr[0]); });
+  robot_->publish(kSmall, {1, 2, 3});
   events_.run_until(Stamp{} + 1s);
-  EXPECT_THAT(transmitted_, ElementsAre(std::pair(kNode.name, Bytes{1, 2, 3})));
+  EXPECT_THAT(transmitted_, ElementsAre(std::pair(kSmall.name, Bytes{1, 2, 3})));
   EXPECT_THAT(heard_, IsEmpty());
-  EXPECT_EQ(stats_of(kNode).sent_messages, 1u);
-  EXPECT_EQ(stats_of(kNode).sent_bytes, 3u);
-  EXPECT_EQ(stats_of(kNode).received_messages, 0u);
+  EXPECT_EQ(stats_of(kSmall).sent_messages, 1u);
+  EXPECT_EQ(stats_of(kSmall).sent_bytes, 3u);
+  EXPECT_EQ(stats_of(kSmall).received_messages, 0u);
 }
 
 TEST_F(LocalRobotTest, TheSenderIsKnownWhileItsMessageIsHandledAndOnARadioAlone) {
   std::vector<std::optional<AgentId>> senders;
   const auto note = [&](const Bytes&) { senders.push_back(robot_->sender()); };
-  const Handle node = robot_->subscribe(kNode, note), state = robot_->subscribe(kState, note);
-  deliver(kNode, 1);
+  const Handle node = robot_->subscribe(kSmall, note), state = robot_->subscribe(kState, note);
+  deliver(kSmall, 1);
   robot_->publish(kState, {1});
   events_.run_until(Stamp{});
   EXPECT_EQ(senders, (std::vector<std::optional<AgentId>>{agent("r2"), std::nullopt}));
@@ -72,43 +72,43 @@ TEST_F(LocalRobotTest, TheSenderIsKnownWhileItsMessageIsHandledAndOnARadioAlone)
 }
 
 TEST_F(LocalRobotTest, ATopicOfAnotherLinkIsAnotherTopic) {
-  const Handle handle = robot_->subscribe(kNode, [this](const Bytes& cdr) { heard_.push_back(cdr[0]); });
-  Topic onboard = kNode;
+  const Handle handle = robot_->subscribe(kSmall, [this](const Bytes& cdr) { heard_.push_back(cdr[0]); });
+  Topic onboard = kSmall;
   onboard.link = Link::kShortRange;
   deliver(onboard, 1);
   EXPECT_THAT(heard_, IsEmpty());
   EXPECT_FALSE(robot_->subscribes(onboard));
-  deliver(kNode, 2);
+  deliver(kSmall, 2);
   EXPECT_THAT(heard_, ElementsAre(2));
 }
 
 TEST_F(LocalRobotTest, SubscribesAsLongAsAHandleIsKept) {
-  EXPECT_FALSE(robot_->subscribes(kNode));
-  Handle first = robot_->subscribe(kNode, [](const Bytes&) {});
-  Handle second = robot_->subscribe(kNode, [](const Bytes&) {});
+  EXPECT_FALSE(robot_->subscribes(kSmall));
+  Handle first = robot_->subscribe(kSmall, [](const Bytes&) {});
+  Handle second = robot_->subscribe(kSmall, [](const Bytes&) {});
   first.reset();
-  EXPECT_TRUE(robot_->subscribes(kNode));
-  Topic other = kNode;
+  EXPECT_TRUE(robot_->subscribes(kSmall));
+  Topic other = kSmall;
   other.type = "Cloud";
   EXPECT_THROW(static_cast<void>(robot_->subscribes(other)), std::logic_error);
   second.reset();
-  EXPECT_FALSE(robot_->subscribes(kNode));
+  EXPECT_FALSE(robot_->subscribes(kSmall));
 }
 
 TEST_F(LocalRobotTest, SubscribersMayComeAndGoWhileAMessageIsHandled) {
   Handle second, third;
-  const Handle first = robot_->subscribe(kNode, [&](const Bytes&) {
+  const Handle first = robot_->subscribe(kSmall, [&](const Bytes&) {
     heard_.push_back(1);
     second.reset();
     if (heard_.size() > 1) return;
-    third = robot_->subscribe(kNode, [this](const Bytes&) { heard_.push_back(3); });
+    third = robot_->subscribe(kSmall, [this](const Bytes&) { heard_.push_back(3); });
   });
-  second = robot_->subscribe(kNode, [this](const Bytes&) { heard_.push_back(2); });
-  deliver(kNode, 0);
+  second = robot_->subscribe(kSmall, [this](const Bytes&) { heard_.push_back(2); });
+  deliver(kSmall, 0);
   EXPECT_THAT(heard_, ElementsAre(1)) << "the second was cancelled, the third came later";
-  deliver(kNode, 0);
+  deliver(kSmall, 0);
   EXPECT_THAT(heard_, ElementsAre(1, 1, 3));
-  EXPECT_EQ(stats_of(kNode).received_messages, 2u) << "a message counts once for all subscribers";
+  EXPECT_EQ(stats_of(kSmall).received_messages, 2u) << "a message counts once for all subscribers";
 }
 
 TEST_F(LocalRobotTest, TimersComeAtMultiplesOfTheirPeriodAndEndInTheirOwnCallback) {
@@ -153,9 +153,9 @@ TEST_F(LocalRobotTest, NothingOfARobotThatIsGoneHappensAnyMore) {
 }
 
 TEST_F(LocalRobotTest, DropsOfALinkCountForTheirTopic) {
-  robot_->count_drop(kNode);
-  robot_->count_drop(kNode);
-  EXPECT_EQ(stats_of(kNode).dropped_messages, 2u);
+  robot_->count_drop(kSmall);
+  robot_->count_drop(kSmall);
+  EXPECT_EQ(stats_of(kSmall).dropped_messages, 2u);
   EXPECT_EQ(stats_of(kState).dropped_messages, 0u);
 }
 

@@ -16,11 +16,11 @@
 #include "bus/captured_log.hpp"
 #include "bus/dds/hello.hpp"
 #include "bus/dds_domains.hpp"
+#include "bus/fleet.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 
 namespace fleetmap::bus::testing {
 
-inline constexpr auto kPatience = std::chrono::seconds(60);
 inline constexpr FleetSettings kSettings{
     .wire_schema = 3, .fleet = 0x12345678, .submap_voxel = 1000, .map_voxel = 1000, .placement = 7};
 

@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-const Topic kTopic{Link::kOnboard, "rt/points", "Points", "sensor"};
+const Topic kPoints{Link::kOnboard, "rt/points", "Points", "sensor"};
 
 /// Two processes of one robot, here two links in one.
 class OnboardLinkTest : public QosDirectory {
@@ -37,35 +37,35 @@ class OnboardLinkTest : public QosDirectory {
 
 TEST_F(OnboardLinkTest, EndsMatchWhileBothAreOpenAndSamplesCome) {
   const auto driver = make().value(), agent = make().value();
-  driver->advertise(kTopic);
+  driver->advertise(kPoints);
   Bytes came;
   for (int round = 0; round < 2; ++round) {
-    Handle reads = agent->subscribe(kTopic, [&](const Bytes& cdr) { came = cdr; });
+    Handle reads = agent->subscribe(kPoints, [&](const Bytes& cdr) { came = cdr; });
     ASSERT_TRUE(run_until(
-        [&] { return driver->matches(kTopic).readers == 1 && agent->matches(kTopic).writers == 1; }));
+        [&] { return driver->matches(kPoints).readers == 1 && agent->matches(kPoints).writers == 1; }));
     const Bytes sample{0, 1, 0, 0, 7, static_cast<std::uint8_t>(round)};
-    driver->publish(kTopic, sample);
+    driver->publish(kPoints, sample);
     EXPECT_TRUE(run_until([&] { return came == sample; }));
     reads.reset();
-    EXPECT_TRUE(run_until([&] { return driver->matches(kTopic).readers == 0; }));
-    EXPECT_EQ(agent->matches(kTopic).writers, 0u);
+    EXPECT_TRUE(run_until([&] { return driver->matches(kPoints).readers == 0; }));
+    EXPECT_EQ(agent->matches(kPoints).writers, 0u);
   }
 }
 
 /// A driver of another type on the same topic is no match, so nothing is decoded as what it is not.
 TEST_F(OnboardLinkTest, AnotherTypeDoesNotMatch) {
   const auto driver = make().value(), agent = make().value();
-  Topic other = kTopic;
+  Topic other = kPoints;
   other.type = "Imu";
   driver->advertise(other);
   driver->advertise({Link::kOnboard, "rt/imu", "Imu", "sensor"});
-  const Handle reads = agent->subscribe(kTopic, [](const Bytes&) {});
+  const Handle reads = agent->subscribe(kPoints, [](const Bytes&) {});
   const Handle imu = agent->subscribe({Link::kOnboard, "rt/imu", "Imu", "sensor"}, [](const Bytes&) {});
   ASSERT_TRUE(run_until([&] {
     return driver->matches({Link::kOnboard, "rt/imu", "Imu", "sensor"}).readers == 1;
   }));
   EXPECT_EQ(driver->matches(other).readers, 0u);
-  EXPECT_EQ(agent->matches(kTopic).writers, 0u);
+  EXPECT_EQ(agent->matches(kPoints).writers, 0u);
 }
 
 TEST_F(OnboardLinkTest, AProfileThatFastDdsRefusesIsNamed) {
@@ -73,7 +73,7 @@ TEST_F(OnboardLinkTest, AProfileThatFastDdsRefusesIsNamed) {
   const auto link = make();
   ASSERT_TRUE(link) << link.error().message;
   EXPECT_THAT(
-      [&] { (*link)->advertise(kTopic); },
+      [&] { (*link)->advertise(kPoints); },
       ThrowsMessage<std::logic_error>(HasSubstr("onboard.xml: Fast DDS refuses the data writer profile "
                                                 "\"sensor\"")));
 }

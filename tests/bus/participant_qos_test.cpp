@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-AgentId agent() { return AgentId::parse("r1").value(); }
+const AgentId kRobot = AgentId::parse("r1").value();
 
 /// A profile with shared memory and UDP.
 struct Profile {
@@ -92,7 +92,7 @@ TEST(RadioAttributes, AreOfAParticipantWithoutDiscoveryOnTheOwnAddress) {
   DdsLinkConfig config;
   config.domain = 2;
   config.address = "10.0.0.1";
-  const auto robot = radio_attributes(config, Link::kLongRange, agent(), false, profile.qos);
+  const auto robot = radio_attributes(config, Link::kLongRange, kRobot, false, profile.qos);
   EXPECT_STREQ(robot.getName(), "fleetmap/r1/long_range");
   EXPECT_EQ(robot.builtin.discovery_config.discoveryProtocol,
             eprosima::fastrtps::rtps::DiscoveryProtocol_t::NONE);
@@ -104,7 +104,7 @@ TEST(RadioAttributes, AreOfAParticipantWithoutDiscoveryOnTheOwnAddress) {
   ASSERT_TRUE(udp);
   EXPECT_THAT(udp->interfaceWhiteList, ElementsAre("10.0.0.1"));
   EXPECT_TRUE(profile.udp->interfaceWhiteList.empty()) << "others use the profile's descriptor too";
-  const auto observer = radio_attributes(config, Link::kLongRange, agent(), true, profile.qos);
+  const auto observer = radio_attributes(config, Link::kLongRange, kRobot, true, profile.qos);
   EXPECT_THAT(texts(observer.defaultUnicastLocatorList), ElementsAre("0.0.0.0:7912"));
   EXPECT_NE(observer.participantID, robot.participantID) << "each start takes another number";
 }
@@ -114,7 +114,7 @@ TEST(ApplyOnboard, TheLoopbackAndItsGroupAreAlwaysSought) {
   DdsLinkConfig config;
   config.domain = 5;
   config.peers = {"127.0.0.1:9000"};
-  apply_onboard(config, agent(), profile.qos);
+  apply_onboard(config, kRobot, profile.qos);
   EXPECT_EQ(profile.qos.name().to_string(), "fleetmap/r1/onboard");
   const auto& wire = profile.qos.wire_protocol();
   EXPECT_THAT(texts(wire.builtin.metatrafficUnicastLocatorList), ElementsAre("0.0.0.0:8660"));
@@ -130,13 +130,13 @@ TEST(ApplyOnboard, PeersOfTheProfileStayUnlessOthersAreGiven) {
   eprosima::fastrtps::rtps::Locator_t peer;
   peer.port = 9000;
   profile.qos.wire_protocol().builtin.initialPeersList.push_back(peer);
-  apply_onboard({}, agent(), profile.qos);
+  apply_onboard({}, kRobot, profile.qos);
   EXPECT_THAT(texts(profile.qos.wire_protocol().builtin.initialPeersList), ElementsAre(HasSubstr(":9000")));
 }
 
 TEST(ApplyOnboard, SharedMemoryCanBeLeftOut) {
   Profile profile;
-  apply_onboard({.shared_memory = false}, agent(), profile.qos);
+  apply_onboard({.shared_memory = false}, kRobot, profile.qos);
   EXPECT_EQ(profile.qos.transport().user_transports.size(), 1u);
   EXPECT_EQ(shared_memory_bytes(profile.qos), 0u);
 }

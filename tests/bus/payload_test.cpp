@@ -10,7 +10,7 @@ using eprosima::fastrtps::rtps::IPayloadPool;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
 /// A CDR message of `size` bytes, its header included.
-Bytes message(std::size_t size) {
+Bytes cdr_of_size(std::size_t size) {
   Bytes cdr{0, 1, 0, 0};
   while (cdr.size() < size) cdr.push_back(static_cast<std::uint8_t>(0xf0 + cdr.size()));
   return cdr;
@@ -19,19 +19,19 @@ Bytes message(std::size_t size) {
 TEST(Payload, ComesBackWithItsSizeThoughItIsPadded) {
   for (std::size_t size = 4; size <= 13; ++size) {
     SerializedPayload_t payload(64);
-    ASSERT_TRUE(write_payload(message(size), payload));
+    ASSERT_TRUE(write_payload(cdr_of_size(size), payload));
     EXPECT_EQ(payload.length, (size + 3) / 4 * 4);
-    EXPECT_EQ(payload.length, payload_size(message(size)));
+    EXPECT_EQ(payload.length, payload_size(cdr_of_size(size)));
     EXPECT_EQ(payload.data[3], payload.length - size) << "DDS-XTypes 1.3, 7.6.3.1.2";
     for (std::size_t k = size; k < payload.length; ++k) EXPECT_EQ(payload.data[k], 0);
     Bytes read{9, 9};
     ASSERT_TRUE(read_payload(payload, read));
-    EXPECT_EQ(read, message(size));
+    EXPECT_EQ(read, cdr_of_size(size));
   }
 }
 
 TEST(Payload, OtherOptionsOfTheHeaderStay) {
-  Bytes cdr = message(6);
+  Bytes cdr = cdr_of_size(6);
   cdr[2] = 0xab;
   cdr[3] = 0xfc;
   SerializedPayload_t payload(64);
@@ -44,7 +44,7 @@ TEST(Payload, OtherOptionsOfTheHeaderStay) {
 
 TEST(Payload, TellsTheByteOrder) {
   SerializedPayload_t payload(64);
-  ASSERT_TRUE(write_payload(message(8), payload));
+  ASSERT_TRUE(write_payload(cdr_of_size(8), payload));
   EXPECT_EQ(payload.encapsulation, CDR_LE);
   ASSERT_TRUE(write_payload({0, 0, 0, 0, 1, 2, 3, 4}, payload));
   EXPECT_EQ(payload.encapsulation, CDR_BE);
@@ -53,8 +53,8 @@ TEST(Payload, TellsTheByteOrder) {
 TEST(Payload, PayloadWithoutHeaderOrRoomIsRefused) {
   SerializedPayload_t payload(8);
   EXPECT_FALSE(write_payload({0, 1, 0}, payload));
-  EXPECT_FALSE(write_payload(message(9), payload)) << "12 with its padding";
-  EXPECT_TRUE(write_payload(message(8), payload));
+  EXPECT_FALSE(write_payload(cdr_of_size(9), payload)) << "12 with its padding";
+  EXPECT_TRUE(write_payload(cdr_of_size(8), payload));
   Bytes read;
   payload.length = 3;
   EXPECT_FALSE(read_payload(payload, read));
@@ -82,7 +82,7 @@ TEST(PayloadPool, GivesMemoryUpToTheLargestMessageAndTakesItBack) {
 TEST(PayloadPool, CopiesAPayloadOfSomebodyElse) {
   PayloadPool pool;
   SerializedPayload_t theirs(64);
-  ASSERT_TRUE(write_payload(message(11), theirs));
+  ASSERT_TRUE(write_payload(cdr_of_size(11), theirs));
   CacheChange_t change;
   IPayloadPool* owner = nullptr;
   ASSERT_TRUE(pool.get_payload(theirs, owner, change));

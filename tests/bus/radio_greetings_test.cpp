@@ -25,10 +25,9 @@ using ::testing::Not;
 using trust::Credentials;
 using trust::Role;
 
-constexpr auto kPatience = std::chrono::seconds(60);
-constexpr FleetSettings kSettings{
+constexpr FleetSettings kFleetSettings{
     .wire_schema = 3, .fleet = 1, .submap_voxel = 1, .map_voxel = 1, .placement = 1};
-const Topic kTopic{Link::kLongRange, "note", "Note", "small"};
+const Topic kNotes{Link::kLongRange, "note", "Note", "small"};
 
 std::uint16_t port_of(int participant) {
   return static_cast<std::uint16_t>(7410 + 250 * static_cast<int>(first_test_domain()) + 2 * participant);
@@ -94,14 +93,14 @@ class SealedRadio : public ::testing::Test {
     config.long_range.domain = first_test_domain();
     config.long_range.address = "127.0.0.1";
     config.long_range.multicast = multicast;
-    config.settings = kSettings;
+    config.settings = kFleetSettings;
     if (keys) config.keys = std::make_shared<const Credentials>(*keys);
     auto bus = DdsBus::create(config);
     if (!bus) throw std::runtime_error(bus.error().message);
     Robot& robot = *robots_.emplace_back(std::make_unique<Robot>());
     robot.bus = *std::move(bus);
-    robot.heard = robot.bus->subscribe(kTopic, [&robot](const Bytes& cdr) { robot.came.push_back(cdr); });
-    robot.bus->advertise(kTopic);
+    robot.heard = robot.bus->subscribe(kNotes, [&robot](const Bytes& cdr) { robot.came.push_back(cdr); });
+    robot.bus->advertise(kNotes);
     return robot;
   }
   void stop(const Robot& robot) {
@@ -117,7 +116,7 @@ class SealedRadio : public ::testing::Test {
     return done();
   }
   static bool knows(const Robot& robot, std::size_t others) {
-    const auto matches = robot.bus->matches(kTopic);
+    const auto matches = robot.bus->matches(kNotes);
     return matches.readers == others && matches.writers == others;
   }
   static std::vector<std::string> notices(const Robot& robot) {
@@ -127,7 +126,7 @@ class SealedRadio : public ::testing::Test {
   bool hears(const Robot& to, const Robot& from) {
     const Bytes text = message(200, ++seed_).cdr;
     return run_until([&] {
-      from.bus->publish(kTopic, text);
+      from.bus->publish(kNotes, text);
       return std::ranges::find(to.came, text) != to.came.end();
     });
   }
@@ -139,7 +138,7 @@ class SealedRadio : public ::testing::Test {
     ASSERT_TRUE(run_until([&] { return knows(first, 1) && knows(second, 1) && !notices(first).empty(); }))
         << log_.text();
     EXPECT_THAT(notices(first), ElementsAre(HasSubstr(notice)));
-    third.bus->publish(kTopic, message(100, 1).cdr);
+    third.bus->publish(kNotes, message(100, 1).cdr);
     ASSERT_TRUE(hears(second, first));
     EXPECT_TRUE(third.came.empty());
     ASSERT_TRUE(hears(first, second));
@@ -181,7 +180,7 @@ TEST_F(SealedRadio, LargeMessagesArriveWhole) {
   ASSERT_TRUE(run_until([&] { return knows(first, 1) && knows(second, 1); }));
   const Bytes large = message(6000, 3).cdr;
   EXPECT_TRUE(run_until([&] {
-    first.bus->publish(kTopic, large);
+    first.bus->publish(kNotes, large);
     return std::ranges::find(second.came, large) != second.came.end();
   }));
 }
@@ -257,7 +256,7 @@ TEST_F(SealedRadio, AnObserverHearsAndIsNotHeard) {
   ASSERT_TRUE(run_until([&] { return knows(first, 1) && knows(observer, 1); })) << log_.text();
   Robot& second = start("r2", r2_);
   ASSERT_TRUE(run_until([&] { return knows(first, 2) && knows(second, 2); })) << log_.text();
-  for (std::uint8_t k = 0; k < 20; ++k) observer.bus->publish(kTopic, message(50, k).cdr);
+  for (std::uint8_t k = 0; k < 20; ++k) observer.bus->publish(kNotes, message(50, k).cdr);
   EXPECT_TRUE(hears(observer, first));
   EXPECT_TRUE(hears(first, second));
   for (const Bytes& cdr : first.came) EXPECT_EQ(cdr.size(), 204u) << "what the observer sent";

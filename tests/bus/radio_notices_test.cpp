@@ -8,7 +8,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-RadioSurvey::Robot robot(const std::string& name, const std::string& place) {
+RadioSurvey::Robot robot_at(const std::string& name, const std::string& place) {
   RadioSurvey::Robot robot;
   robot.agent = AgentId::parse(name).value();
   robot.place = place;
@@ -17,9 +17,9 @@ RadioSurvey::Robot robot(const std::string& name, const std::string& place) {
 
 TEST(RadioNotices, ARobotIsListedOnceForEachAddressAndUpdated) {
   RadioNotices notices(Link::kLongRange, false, FleetSettings{});
-  notices.note(robot("r1", "10.0.0.1:7660"));
-  notices.note(robot("r1", "10.0.0.2:7660"));
-  RadioSurvey::Robot again = robot("r1", "10.0.0.1:7660");
+  notices.note(robot_at("r1", "10.0.0.1:7660"));
+  notices.note(robot_at("r1", "10.0.0.2:7660"));
+  RadioSurvey::Robot again = robot_at("r1", "10.0.0.1:7660");
   again.multicast = true;
   again.settings = FleetSettings{};
   notices.note(again);
@@ -32,7 +32,7 @@ TEST(RadioNotices, ARobotIsListedOnceForEachAddressAndUpdated) {
 TEST(RadioNotices, TheListsAreBounded) {
   RadioNotices notices(Link::kLongRange, false, std::nullopt);
   for (int k = 0; k < 1000; ++k) {
-    notices.note(robot("r1", std::to_string(k)));
+    notices.note(robot_at("r1", std::to_string(k)));
     notices.refuse(std::to_string(k), "another version");
   }
   EXPECT_EQ(notices.robots().size(), 256u);

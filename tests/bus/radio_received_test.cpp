@@ -8,14 +8,14 @@
 namespace fleetmap::bus::testing {
 namespace {
 
-const Topic kTopic{Link::kLongRange, "fleetmap/status", "Type", "small"};
+const Topic kStatus{Link::kLongRange, "fleetmap/status", "Type", "small"};
 
 /// r1 knows r2, whose messages the test sends.
 class RadioReceivedTest : public LoneRadio {
  protected:
   void SetUp() override {
     bus_ = &start(robot("r1"));
-    handle_ = bus_->subscribe(kTopic, [this](const Bytes& cdr) { came_.push_back(cdr.back()); });
+    handle_ = bus_->subscribe(kStatus, [this](const Bytes& cdr) { came_.push_back(cdr.back()); });
     Hello hello = some_hello();
     hello.link = Link::kLongRange;
     hello.address = {127, 0, 0, 1};
@@ -29,7 +29,7 @@ class RadioReceivedTest : public LoneRadio {
   /// Message `number` of a robot's writer of the topic; its last byte is the number.
   void send(std::uint8_t participant, std::uint8_t number) {
     Bytes message = rtps_message({0, 1, 0, 0, 9, 9, 9, number}, number, participant);
-    const std::uint32_t writer = key_of(kTopic);
+    const std::uint32_t writer = key_of(kStatus);
     constexpr std::size_t kWriter = 20 + 4 + 4 + 4;  // behind RTPS header, submessage header, offset, reader
     for (std::size_t k = 0; k < 3; ++k)
       message[kWriter + k] = static_cast<std::uint8_t>(writer >> (16 - 8 * k));

@@ -4,14 +4,15 @@
 
 #include <set>
 
+#include "trust/fleet_of_keys.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
+using fleetmap::testing::agent;
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-AgentId agent(const char* name) { return AgentId::parse(name).value(); }
 
 /// A radio of 1000 bytes a second; a datagram takes 100 bytes beside its payload of at most 1280.
 class RadioTest : public ::testing::Test {

@@ -7,15 +7,15 @@
 #include <future>
 #include <vector>
 
+#include "bus/deadlines.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-constexpr auto kAtOnce = Executor::Clock::time_point::min();
-constexpr auto kAtLast = Executor::Clock::time_point::max();
+using testing::kAtLast, testing::kAtOnce;
 
 class WorkerTest : public ::testing::Test {
  protected:

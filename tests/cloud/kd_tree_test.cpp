@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::cloud {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+using fleetmap::testing::kNaN;
 
 std::vector<Eigen::Vector3f> random_points(std::size_t count, unsigned seed, bool on_lattice) {
   std::mt19937 random(seed);
@@ -78,14 +79,15 @@ TEST(KdTree, NearestRespectsItsMaximumDistance) {
 }
 
 TEST(KdTree, NonFinitePointsAreNeverFoundAndIndicesStayThoseOfTheCloud) {
-  const KdTree tree(std::vector<Eigen::Vector3f>{{kNan, 0, 0}, {1, 0, 0}, {0, INFINITY, 0}, {2, 0, 0}});
+  const KdTree tree(
+      std::vector<Eigen::Vector3f>{{kNaN<float>, 0, 0}, {1, 0, 0}, {0, INFINITY, 0}, {2, 0, 0}});
   EXPECT_EQ(tree.size(), 2u);
   const auto found = tree.knn({0, 0, 0}, 5);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].index, 1u);
   EXPECT_EQ(found[1].index, 3u);
-  EXPECT_FALSE(tree.nearest({kNan, 0, 0}));
-  EXPECT_TRUE(tree.radius({kNan, 0, 0}, 10.0f).empty());
+  EXPECT_FALSE(tree.nearest({kNaN<float>, 0, 0}));
+  EXPECT_TRUE(tree.radius({kNaN<float>, 0, 0}, 10.0f).empty());
 }
 
 TEST(KdTree, AnEmptyCloudFindsNothing) {

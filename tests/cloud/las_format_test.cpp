@@ -8,15 +8,16 @@
 #include <random>
 
 #include "cloud/las_reader.hpp"
+#include "support/field_bounds.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::cloud {
 namespace {
 
+using fleetmap::testing::kNaN;
 using fleetmap::testing::LasFile;
 
 const Eigen::Vector3d kNone = Eigen::Vector3d::Zero();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Header and records as a file, read back.
@@ -58,7 +59,7 @@ TEST(LasSteps, RefusesWhatDoesNotFit) {
   const double limit = 2'147'483.647;
   EXPECT_EQ(las_steps({1'000'000 + limit, -limit, limit}, offset),
             Eigen::Vector3i(2147483647, -2147483647, 2147483647));
-  for (const double wrong : {kNan, kInfinity, -kInfinity, limit + 0.001, -limit - 0.001, 1e300}) {
+  for (const double wrong : {kNaN<double>, kInfinity, -kInfinity, limit + 0.001, -limit - 0.001, 1e300}) {
     for (int axis = 0; axis < 3; ++axis) {
       Eigen::Vector3d p = offset.cast<double>();
       p[axis] += wrong;

@@ -19,7 +19,7 @@ using fleetmap::testing::LasFile;
 using fleetmap::testing::read_las;
 using ::testing::HasSubstr;
 
-std::vector<LasPoint> random_points(std::size_t count) {
+std::vector<LasPoint> random_las_points(std::size_t count) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> metres(-500.0, 500.0);
   std::vector<LasPoint> points;
@@ -48,7 +48,7 @@ class LasWriterTest : public ::testing::Test {
 };
 
 TEST_F(LasWriterTest, PiecesMakeTheFileOfTheWhole) {
-  const std::vector<LasPoint> points = random_points(70'000);  // more than one block
+  const std::vector<LasPoint> points = random_las_points(70'000);  // more than one block
   const std::span all(points);
   auto streamed = LasWriter::create(file_, description_);
   ASSERT_TRUE(streamed) << streamed.error().message;
@@ -77,7 +77,7 @@ TEST_F(LasWriterTest, PiecesMakeTheFileOfTheWhole) {
 }
 
 TEST_F(LasWriterTest, APointThatIsNoneIsLeftOutAndCounted) {
-  std::vector<LasPoint> points = random_points(4);
+  std::vector<LasPoint> points = random_las_points(4);
   points[1].position.y() = std::numeric_limits<double>::quiet_NaN();
   points[2].position.z() = 1e12;
   auto writer = LasWriter::create(file_, description_);
@@ -99,7 +99,7 @@ TEST_F(LasWriterTest, AnEmptyMapIsAFileWithoutPoints) {
 
 TEST_F(LasWriterTest, AFullDiskIsAnErrorThatNamesTheFileWhichStays) {
   auto before = LasWriter::create(file_, description_);
-  ASSERT_TRUE(before && before->add(random_points(10)) && before->finish());
+  ASSERT_TRUE(before && before->add(random_las_points(10)) && before->finish());
   fs::create_symlink("/dev/full", folder_.path() / "map.las.part");
   const auto writer = LasWriter::create(file_, description_);
   ASSERT_FALSE(writer);
@@ -113,7 +113,7 @@ TEST_F(LasWriterTest, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   ASSERT_TRUE(writer);
   {
     const fleetmap::testing::FullDisk full(4'096);
-    const Status added = writer->add(random_points(1'000));
+    const Status added = writer->add(random_las_points(1'000));
     ASSERT_FALSE(added);
     EXPECT_THAT(added.error().message, AllOf(HasSubstr("map.las"), HasSubstr("File too large")));
   }
@@ -124,7 +124,7 @@ TEST_F(LasWriterTest, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
 TEST_F(LasWriterTest, UnfinishedFileLeavesNothing) {
   {
     auto writer = LasWriter::create(file_, description_);
-    ASSERT_TRUE(writer && writer->add(random_points(10)));
+    ASSERT_TRUE(writer && writer->add(random_las_points(10)));
     const LasWriter moved = std::move(*writer);
     EXPECT_EQ(files(), 1u);
   }

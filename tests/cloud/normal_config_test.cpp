@@ -11,16 +11,14 @@ using fleetmap::testing::expect_accepted;
 using fleetmap::testing::expect_refused;
 using fleetmap::testing::kNaN;
 
-using Config = NormalConfig;
-
 TEST(NormalConfig, ThreePointsMakeAPlane) {
-  const Config config;
-  expect_accepted(config, &Config::neighbors, {config.min_neighbors, 64});
-  expect_refused(config, &Config::neighbors, {2, 65}, "neighbors");
-  expect_refused(config, &Config::neighbors, {config.min_neighbors - 1}, "min_neighbors");
-  expect_accepted(config, &Config::min_neighbors, {3, config.neighbors});
-  expect_refused(config, &Config::min_neighbors, {2, config.neighbors + 1}, "min_neighbors");
-  expect_refused(config, &Config::max_radius_m, {0.0f, -1.0f, kNaN<float>}, "max_radius_m");
+  const NormalConfig config;
+  expect_accepted(config, &NormalConfig::neighbors, {config.min_neighbors, 64});
+  expect_refused(config, &NormalConfig::neighbors, {2, 65}, "neighbors");
+  expect_refused(config, &NormalConfig::neighbors, {config.min_neighbors - 1}, "min_neighbors");
+  expect_accepted(config, &NormalConfig::min_neighbors, {3, config.neighbors});
+  expect_refused(config, &NormalConfig::min_neighbors, {2, config.neighbors + 1}, "min_neighbors");
+  expect_refused(config, &NormalConfig::max_radius_m, {0.0f, -1.0f, kNaN<float>}, "max_radius_m");
 }
 
 }  // namespace

@@ -11,13 +11,11 @@ using fleetmap::testing::expect_accepted;
 using fleetmap::testing::expect_refused;
 using fleetmap::testing::kNaN;
 
-using Config = OutlierConfig;
-
 TEST(OutlierConfig, NeighboursAndSigmasAreBounded) {
-  expect_accepted(Config{}, &Config::neighbors, {1, 63});
-  expect_refused(Config{}, &Config::neighbors, {0, 64}, "neighbors");
-  expect_accepted(Config{}, &Config::sigmas, {0.0});
-  expect_refused(Config{}, &Config::sigmas, {-0.1, kNaN<double>}, "sigmas");
+  expect_accepted(OutlierConfig{}, &OutlierConfig::neighbors, {1, 63});
+  expect_refused(OutlierConfig{}, &OutlierConfig::neighbors, {0, 64}, "neighbors");
+  expect_accepted(OutlierConfig{}, &OutlierConfig::sigmas, {0.0});
+  expect_refused(OutlierConfig{}, &OutlierConfig::sigmas, {-0.1, kNaN<double>}, "sigmas");
 }
 
 }  // namespace

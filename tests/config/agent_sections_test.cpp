@@ -12,10 +12,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-AgentReading read(const std::string& yaml) { return agent_of(yaml, read_agent); }
+AgentReading agent_section_of(const std::string& yaml) { return agent_of(yaml, read_agent); }
 
 TEST(AgentSections, ReadsNameFleetFolderAndOrigin) {
-  const AgentReading r = read("id: r2\nfleet: [r1, r2]\ndirectory: out\nsite: {origin: [48.5, 9.25, 430]}\n");
+  const AgentReading r =
+      agent_section_of("id: r2\nfleet: [r1, r2]\ndirectory: out\nsite: {origin: [48.5, 9.25, 430]}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.agent.id.str(), "r2");
   ASSERT_EQ(r.agent.exchange.fleet.size(), 2u);
@@ -29,20 +30,22 @@ TEST(AgentSections, ReadsNameFleetFolderAndOrigin) {
 }
 
 TEST(AgentSections, NamesThatAreNoneAreProblems) {
-  EXPECT_THAT(read("id: r 1\nfleet: [r1]\n").problems, HasSubstr("robot.yaml:1: id: "));
-  EXPECT_THAT(read("id: r1\nfleet: [r1, '']\n").problems, HasSubstr("robot.yaml:2: fleet: "));
+  EXPECT_THAT(agent_section_of("id: r 1\nfleet: [r1]\n").problems, HasSubstr("robot.yaml:1: id: "));
+  EXPECT_THAT(agent_section_of("id: r1\nfleet: [r1, '']\n").problems, HasSubstr("robot.yaml:2: fleet: "));
 }
 
 TEST(AgentSections, AnOriginIsALatitudeALongitudeAndAnAltitude) {
-  EXPECT_THAT(read("id: r1\nsite: {origin: [95, 9, 0]}\n").problems,
+  EXPECT_THAT(agent_section_of("id: r1\nsite: {origin: [95, 9, 0]}\n").problems,
               HasSubstr("robot.yaml:2: site.origin: expected [latitude"));
-  EXPECT_THAT(read("id: r1\nsite: {origin: [48, 9]}\n").problems, HasSubstr("robot.yaml:2: site.origin: "));
-  EXPECT_THAT(read("id: r1\nsite: {orign: [48, 9, 0]}\n").problems, HasSubstr("did you mean 'origin'?"));
+  EXPECT_THAT(agent_section_of("id: r1\nsite: {origin: [48, 9]}\n").problems,
+              HasSubstr("robot.yaml:2: site.origin: "));
+  EXPECT_THAT(agent_section_of("id: r1\nsite: {orign: [48, 9, 0]}\n").problems,
+              HasSubstr("did you mean 'origin'?"));
 }
 
 TEST(AgentSections, ModePaperIsThePapersSchemeThroughout) {
-  const AgentReading fleet = read("id: r1\nmode: fleet\n"), none = read("id: r1\n"),
-                     paper = read("id: r1\nmode: paper\n");
+  const AgentReading fleet = agent_section_of("id: r1\nmode: fleet\n"), none = agent_section_of("id: r1\n"),
+                     paper = agent_section_of("id: r1\nmode: paper\n");
   EXPECT_EQ(fleet.problems + none.problems + paper.problems, "");
   EXPECT_EQ(none.agent.registration.method, registration::Method::correlation);
   EXPECT_EQ(fleet.agent.placement.method, graph::PlacementMethod::graph);
@@ -52,19 +55,20 @@ TEST(AgentSections, ModePaperIsThePapersSchemeThroughout) {
   EXPECT_EQ(paper.agent.loop_closure.proximity.uncertainty, place::Uncertainty::variance);
   EXPECT_EQ(paper.agent.loop_closure.order, exchange::CloudOrder::kFirstCome);
   EXPECT_EQ(paper.agent.loop_closure.min_information, 0.0);
-  EXPECT_THAT(read("id: r1\nmode: papr\n").problems,
+  EXPECT_THAT(agent_section_of("id: r1\nmode: papr\n").problems,
               HasSubstr("robot.yaml:2: mode: expected 'paper' or 'fleet', found 'papr'"));
 }
 
 TEST(AgentSections, TheShareOfTheCpuForLivePlacementsIsBounded) {
-  EXPECT_EQ(read("id: r1\nplacement: {live_cpu_share: 0.1}\n").agent.live_placement.cpu_share, 0.1);
-  EXPECT_THAT(read("id: r1\nplacement: {live_cpu_share: 2}\n").problems,
+  EXPECT_EQ(agent_section_of("id: r1\nplacement: {live_cpu_share: 0.1}\n").agent.live_placement.cpu_share,
+            0.1);
+  EXPECT_THAT(agent_section_of("id: r1\nplacement: {live_cpu_share: 2}\n").problems,
               HasSubstr("placement.live_cpu_share"));
 }
 
 TEST(AgentSections, ASectionSetsEachPartOfThePapersSchemeAlone) {
-  const AgentReading r =
-      read("id: r1\nmode: paper\nregistration: {method: correlation}\nspherize: {ground_voxel: 1.5}\n");
+  const AgentReading r = agent_section_of(
+      "id: r1\nmode: paper\nregistration: {method: correlation}\nspherize: {ground_voxel: 1.5}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.agent.registration.method, registration::Method::correlation);
   EXPECT_EQ(r.agent.placement.method, graph::PlacementMethod::paper);

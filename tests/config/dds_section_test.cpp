@@ -11,20 +11,20 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
+struct DdsReading {
   bus::DdsBusConfig dds;
   std::string problems;
 };
 
-Read read(const std::string& yaml) {
-  Read result;
+DdsReading dds_of(const std::string& yaml) {
+  DdsReading result;
   result.dds.agent = AgentId::parse("r1").value();
   result.problems = problems_of(yaml, [&](Section& top) { read_dds(top, result.dds); });
   return result;
 }
 
 TEST(DdsSection, ReadsEachLink) {
-  const Read r = read(
+  const DdsReading r = dds_of(
       "dds:\n"
       "  qos: profiles\n"
       "  onboard: {domain: 10, shared_memory: false}\n"
@@ -46,10 +46,11 @@ TEST(DdsSection, ReadsEachLink) {
 }
 
 TEST(DdsSection, ProblemsNameTheLinkAndTheKey) {
-  EXPECT_THAT(read("dds:\n  long_range: {domain: 0}\n").problems, HasSubstr("long_range.domain must differ"));
-  EXPECT_THAT(read("dds:\n  long_range: {adress: 127.0.0.1}\n").problems,
+  EXPECT_THAT(dds_of("dds:\n  long_range: {domain: 0}\n").problems,
+              HasSubstr("long_range.domain must differ"));
+  EXPECT_THAT(dds_of("dds:\n  long_range: {adress: 127.0.0.1}\n").problems,
               HasSubstr("robot.yaml:2: dds.long_range.adress: unknown key; did you mean 'address'?"));
-  EXPECT_THAT(read("dds:\n  onboard: {domain: 300}\n").problems, HasSubstr("domain is 300"));
+  EXPECT_THAT(dds_of("dds:\n  onboard: {domain: 300}\n").problems, HasSubstr("domain is 300"));
 }
 
 TEST(DdsSection, TheFolderOfProfilesHoldsThoseOfAllLinks) {

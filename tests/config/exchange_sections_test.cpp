@@ -12,10 +12,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-AgentReading read(const std::string& yaml) { return agent_of(yaml, read_exchange); }
+AgentReading exchange_of(const std::string& yaml) { return agent_of(yaml, read_exchange); }
 
 TEST(ExchangeSections, ReadsBothLinksInTheUnitsOfTheirKeys) {
-  const AgentReading r = read(
+  const AgentReading r = exchange_of(
       "long_range: {budget_kbit_s: 80, robots: [r1, r3], burst_seconds: 0.5, status_period: 7,\n"
       "  digest_min_period: 2.5, digest_max_period: 40}\n"
       "short_range: {rate_mbit_s: 6, window_bytes: 65536, peer_timeout: 9}\n");
@@ -34,7 +34,7 @@ TEST(ExchangeSections, ReadsBothLinksInTheUnitsOfTheirKeys) {
 }
 
 TEST(ExchangeSections, WithoutKeysTheDefaultsStay) {
-  const AgentReading r = read("{}");
+  const AgentReading r = exchange_of("{}");
   EXPECT_EQ(r.problems, "");
   const exchange::ExchangeConfig usual;
   EXPECT_DOUBLE_EQ(r.agent.exchange.long_range.fleet_bytes_per_second,
@@ -45,14 +45,15 @@ TEST(ExchangeSections, WithoutKeysTheDefaultsStay) {
 }
 
 TEST(ExchangeSections, ProblemsNameTheKeyAndItsLine) {
-  EXPECT_THAT(read("long_range:\n  burst_seconds: 11\n").problems,
+  EXPECT_THAT(exchange_of("long_range:\n  burst_seconds: 11\n").problems,
               HasSubstr("robot.yaml:2: long_range.burst_seconds: "));
-  EXPECT_THAT(read("long_range:\n  digest_min_period: 50\n").problems,
+  EXPECT_THAT(exchange_of("long_range:\n  digest_min_period: 50\n").problems,
               HasSubstr("robot.yaml:2: long_range.digest_min_period: "));
-  EXPECT_THAT(read("short_range:\n  window_bytes: 100\n").problems,
+  EXPECT_THAT(exchange_of("short_range:\n  window_bytes: 100\n").problems,
               HasSubstr("robot.yaml:2: short_range.window_bytes: "));
-  EXPECT_THAT(read("long_range: {budget_kbits: 80}\n").problems, HasSubstr("did you mean 'budget_kbit_s'?"));
-  EXPECT_THAT(read("long_range: {robots: [r1, 'a b']}\n").problems,
+  EXPECT_THAT(exchange_of("long_range: {budget_kbits: 80}\n").problems,
+              HasSubstr("did you mean 'budget_kbit_s'?"));
+  EXPECT_THAT(exchange_of("long_range: {robots: [r1, 'a b']}\n").problems,
               HasSubstr("robot.yaml:1: long_range.robots: "));
 }
 

@@ -13,15 +13,15 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-struct Reading {
+struct FieldReading {
   FieldConfig field;
   std::string problems;
 };
 
-Reading read(const std::string& field, const std::string& name = "fleet.yaml") {
+FieldReading field_of(const std::string& field, const std::string& name = "fleet.yaml") {
   Document document = Document::from(YAML::Load("{field: {" + field + "}}"), name);
   Section top(document, document.root(), "");
-  Reading reading{read_field(top), ""};
+  FieldReading reading{read_field(top), ""};
   if (const Status status = document.status(); !status) reading.problems = status.error().message;
   return reading;
 }
@@ -30,7 +30,7 @@ TEST(FieldSection, EveryKeyIsReadAndFilesAreRelativeToTheFleets) {
   const testing::TemporaryFolder folder;
   for (const char* file : {"links.csv", "qos/a.xml", "agent.yaml", "recordings/r1/x", "truth/r1/truth.tum"})
     folder.write(file, "");
-  const auto [field, problems] = read(
+  const auto [field, problems] = field_of(
       "radio: {kbit_s: 64, loss: 20, duplicate: 1.5, delay_ms: 30, jitter_ms: 5}, wifi: {kbit_s: 8000},"
       " trace: links.csv, qos: qos, robot: agent.yaml, recordings: recordings, truth: truth,"
       " trace_from: 12.5, wifi_from: 60, patience: 90, seed: 7",
@@ -54,13 +54,14 @@ TEST(FieldSection, EveryKeyIsReadAndFilesAreRelativeToTheFleets) {
 }
 
 TEST(FieldSection, ProblemsNameTheKeyAndItsRule) {
-  EXPECT_THAT(read("trace: none.csv").problems,
+  EXPECT_THAT(field_of("trace: none.csv").problems,
               HasSubstr("fleet.yaml:1: field.trace: none.csv does not exist"));
-  EXPECT_THAT(read("radio: {los: 1}").problems,
+  EXPECT_THAT(field_of("radio: {los: 1}").problems,
               HasSubstr("field.radio.los: unknown key; did you mean 'loss'?"));
-  EXPECT_THAT(read("seeds: 1").problems, HasSubstr("did you mean 'seed'?"));
-  EXPECT_THAT(read("patience: 0").problems, HasSubstr("field.patience: patience must be in [1, 86400] s"));
-  EXPECT_THAT(read("wifi: {loss: 101}").problems, HasSubstr("wifi.loss must be in [0, 100] %"));
+  EXPECT_THAT(field_of("seeds: 1").problems, HasSubstr("did you mean 'seed'?"));
+  EXPECT_THAT(field_of("patience: 0").problems,
+              HasSubstr("field.patience: patience must be in [1, 86400] s"));
+  EXPECT_THAT(field_of("wifi: {loss: 101}").problems, HasSubstr("wifi.loss must be in [0, 100] %"));
 }
 
 TEST(FieldConfig, EveryNumberHasItsRange) {

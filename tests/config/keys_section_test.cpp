@@ -15,14 +15,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
+struct KeysReading {
   agent::AgentConfig agent;
   bus::DdsBusConfig dds;
   std::string problems;
 };
 
-Read read(const std::string& yaml, bool of_fleet, const std::string& id) {
-  Read result;
+KeysReading keys_of(const std::string& yaml, bool of_fleet, const std::string& id) {
+  KeysReading result;
   result.agent.id = AgentId::parse(id).value();
   result.problems =
       problems_of(yaml, [&](Section& top) { read_keys(top, of_fleet, result.agent, result.dds); });
@@ -46,14 +46,14 @@ class KeysSection : public ::testing::Test {
 };
 
 TEST_F(KeysSection, WithoutTheKeyNothingIsSigned) {
-  const Read r = read("{}", false, "r1");
+  const KeysReading r = keys_of("{}", false, "r1");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.dds.keys, nullptr);
   EXPECT_EQ(r.agent.exchange.authenticator, nullptr);
 }
 
 TEST_F(KeysSection, TheRobotsKeysSealTheRadioAndSignItems) {
-  const Read r = read(keys("r1"), false, "r1");
+  const KeysReading r = keys_of(keys("r1"), false, "r1");
   EXPECT_EQ(r.problems, "");
   ASSERT_NE(r.dds.keys, nullptr);
   EXPECT_EQ(r.dds.keys->certificate.name.str(), "r1");
@@ -63,12 +63,12 @@ TEST_F(KeysSection, TheRobotsKeysSealTheRadioAndSignItems) {
 }
 
 TEST_F(KeysSection, AFleetsFolderHoldsOneForEachRobot) {
-  EXPECT_EQ(read(keys(""), true, "r1").problems, "");
-  EXPECT_THAT(read(keys(""), true, "r2").problems, HasSubstr("robot.yaml:1: keys: "));
+  EXPECT_EQ(keys_of(keys(""), true, "r1").problems, "");
+  EXPECT_THAT(keys_of(keys(""), true, "r2").problems, HasSubstr("robot.yaml:1: keys: "));
 }
 
 TEST_F(KeysSection, AnotherRobotsKeysAreRefused) {
-  const Read r = read(keys("r1"), false, "r2");
+  const KeysReading r = keys_of(keys("r1"), false, "r2");
   EXPECT_THAT(r.problems, HasSubstr("is the folder of r1; expected that of r2"));
   EXPECT_EQ(r.dds.keys, nullptr);
 }

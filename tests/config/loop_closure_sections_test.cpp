@@ -12,14 +12,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
+struct LoopClosureReading {
   loop_closure::CandidateConfig closure;
   loop_closure::OwnPathConfig own_path;
   std::string problems;
 };
 
-Read read(const std::string& yaml) {
-  Read result;
+LoopClosureReading loop_closure_of(const std::string& yaml) {
+  LoopClosureReading result;
   result.problems = problems_of(yaml, [&](Section& top) {
     read_own_path(top, result.own_path);
     read_loop_candidates(top, result.closure);
@@ -28,7 +28,7 @@ Read read(const std::string& yaml) {
 }
 
 TEST(LoopClosureSections, ReadsTheOwnPath) {
-  const Read r = read("own_path: {reach: 30, min_path: 70, spacing: 12}\n");
+  const LoopClosureReading r = loop_closure_of("own_path: {reach: 30, min_path: 70, spacing: 12}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.own_path.reach, 30.0);
   EXPECT_EQ(r.own_path.min_path, 70.0);
@@ -36,7 +36,7 @@ TEST(LoopClosureSections, ReadsTheOwnPath) {
 }
 
 TEST(LoopClosureSections, ReadsProximityAndLoopCandidates) {
-  const Read r = read(
+  const LoopClosureReading r = loop_closure_of(
       "proximity: {uncertainty: variance, radius_scale: 4, min_radius: 5, max_radius: 50}\n"
       "loop_candidates: {spacing: 1, spacing_aligned: 2, spacing_failed: 3, min_nodes_after: 4, max_wait: "
       "5.5,\n"
@@ -60,7 +60,7 @@ TEST(LoopClosureSections, ReadsProximityAndLoopCandidates) {
 }
 
 TEST(LoopClosureSections, WithoutKeysBothEndsRegisterThoseWithMostInformationFirst) {
-  const Read r = read("{}");
+  const LoopClosureReading r = loop_closure_of("{}");
   EXPECT_EQ(r.problems, "");
   EXPECT_FALSE(r.closure.stop_when_peer_aligned) << "as the paper's robots do";
   EXPECT_EQ(r.closure.order, exchange::CloudOrder::kInformation);
@@ -70,16 +70,18 @@ TEST(LoopClosureSections, WithoutKeysBothEndsRegisterThoseWithMostInformationFir
 
 TEST(LoopClosureSections, ProblemsNameTheKeyAndItsLine) {
   EXPECT_THAT(
-      read("proximity:\n  uncertainty: covariance\n").problems,
+      loop_closure_of("proximity:\n  uncertainty: covariance\n").problems,
       HasSubstr("robot.yaml:2: proximity.uncertainty: expected 'sigma' or 'variance', found 'covariance'"));
   EXPECT_THAT(
-      read("loop_candidates:\n  order: best\n").problems,
+      loop_closure_of("loop_candidates:\n  order: best\n").problems,
       HasSubstr("robot.yaml:2: loop_candidates.order: expected 'information' or 'first_come', found 'best'"));
-  EXPECT_THAT(read("loop_candidates:\n  min_information: -1\n").problems,
+  EXPECT_THAT(loop_closure_of("loop_candidates:\n  min_information: -1\n").problems,
               HasSubstr("robot.yaml:2: loop_candidates.min_information: "));
-  EXPECT_THAT(read("loop_candidates:\n  spacing: -1\n").problems, HasSubstr("loop_candidates"));
-  EXPECT_THAT(read("own_path:\n  min_path: 10\n").problems, HasSubstr("robot.yaml:2: own_path.min_path: "));
-  EXPECT_THAT(read("own_path: {distance: 10}\n").problems, HasSubstr("known here: min_path reach spacing"));
+  EXPECT_THAT(loop_closure_of("loop_candidates:\n  spacing: -1\n").problems, HasSubstr("loop_candidates"));
+  EXPECT_THAT(loop_closure_of("own_path:\n  min_path: 10\n").problems,
+              HasSubstr("robot.yaml:2: own_path.min_path: "));
+  EXPECT_THAT(loop_closure_of("own_path: {distance: 10}\n").problems,
+              HasSubstr("known here: min_path reach spacing"));
 }
 
 }  // namespace

@@ -11,15 +11,15 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-struct Reading {
+struct LoopbackReading {
   LoopbackDomains domains;
   std::string problems;
 };
 
-Reading read(const std::string& yaml, const std::string& name = "fleet.yaml") {
+LoopbackReading loopback_of(const std::string& yaml, const std::string& name = "fleet.yaml") {
   Document document = Document::from(YAML::Load(yaml), name);
   Section top(document, document.root(), "");
-  Reading reading{read_loopback(top), ""};
+  LoopbackReading reading{read_loopback(top), ""};
   if (const Status status = document.status(); !status) reading.problems = status.error().message;
   return reading;
 }
@@ -46,23 +46,23 @@ TEST(LoopbackDomains, RobotsShareTheRadiosAndEachHasAnOnboardDomain) {
 
 TEST(LoopbackDomains, BothKeysAreRead) {
   const std::string name = std::string(FLEETMAP_SOURCE_DIR) + "/fleet.yaml";
-  const Reading reading = read("{dds: {base_domain: 200, qos: qos}}", name);
+  const LoopbackReading reading = loopback_of("{dds: {base_domain: 200, qos: qos}}", name);
   EXPECT_EQ(reading.problems, "");
   EXPECT_EQ(reading.domains.base, 200u);
   EXPECT_EQ(reading.domains.qos, std::filesystem::path(FLEETMAP_SOURCE_DIR) / "qos");
-  const Reading usual = read("{}");
+  const LoopbackReading usual = loopback_of("{}");
   EXPECT_EQ(usual.problems, "");
   EXPECT_EQ(usual.domains.base, 40u);
 }
 
 TEST(LoopbackDomains, ProblemsNameTheKey) {
-  EXPECT_THAT(read("{dds: {base_domain: 201}}").problems,
+  EXPECT_THAT(loopback_of("{dds: {base_domain: 201}}").problems,
               HasSubstr("fleet.yaml:1: dds.base_domain: expected at most 200"));
-  EXPECT_THAT(read("{dds: {base_domain: -1}}").problems,
+  EXPECT_THAT(loopback_of("{dds: {base_domain: -1}}").problems,
               HasSubstr("dds.base_domain: expected a whole number"));
-  EXPECT_THAT(read("{dds: {qos: nowhere}}").problems,
+  EXPECT_THAT(loopback_of("{dds: {qos: nowhere}}").problems,
               HasSubstr("dds.qos: nowhere/onboard.xml: no such file; expected the folder"));
-  EXPECT_THAT(read("{dds: {onboard: {domain: 3}}}").problems, HasSubstr("dds.onboard: unknown key"));
+  EXPECT_THAT(loopback_of("{dds: {onboard: {domain: 3}}}").problems, HasSubstr("dds.onboard: unknown key"));
 }
 
 }  // namespace

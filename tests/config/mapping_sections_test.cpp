@@ -12,10 +12,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-AgentReading read(const std::string& yaml) { return agent_of(yaml, read_mapping); }
+AgentReading mapping_of(const std::string& yaml) { return agent_of(yaml, read_mapping); }
 
 TEST(MappingSections, ReadsNodesSubmapAndMap) {
-  const AgentReading r = read(
+  const AgentReading r = mapping_of(
       "nodes: {spacing: 3}\n"
       "submap: {voxel: 0.2, resolution: 0.05, scan_spacing: 0.4, scan_angle_deg: 90, max_bytes: 20000}\n"
       "map: {voxel: 0.3, centroids: true}\n");
@@ -31,10 +31,11 @@ TEST(MappingSections, ReadsNodesSubmapAndMap) {
 }
 
 TEST(MappingSections, ProblemsNameTheKeyOrTheSection) {
-  EXPECT_THAT(read("nodes:\n  spacing: 0\n").problems, HasSubstr("robot.yaml:2: nodes.spacing: "));
-  EXPECT_THAT(read("submap:\n  voxel: 9\n").problems, HasSubstr("submap voxel must lie in [0.01, 5] m"));
-  EXPECT_THAT(read("map:\n  voxel: 0\n").problems, HasSubstr("robot.yaml:2: map.voxel: "));
-  EXPECT_THAT(read("map: {centroid: true}\n").problems, HasSubstr("did you mean 'centroids'?"));
+  EXPECT_THAT(mapping_of("nodes:\n  spacing: 0\n").problems, HasSubstr("robot.yaml:2: nodes.spacing: "));
+  EXPECT_THAT(mapping_of("submap:\n  voxel: 9\n").problems,
+              HasSubstr("submap voxel must lie in [0.01, 5] m"));
+  EXPECT_THAT(mapping_of("map:\n  voxel: 0\n").problems, HasSubstr("robot.yaml:2: map.voxel: "));
+  EXPECT_THAT(mapping_of("map: {centroid: true}\n").problems, HasSubstr("did you mean 'centroids'?"));
 }
 
 }  // namespace

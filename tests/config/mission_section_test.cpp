@@ -12,37 +12,37 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Reading {
+struct MissionReading {
   TwinConfig twin;
   std::optional<RobotMission> robot;
   std::string problems;
 };
 
-Reading read(const std::string& yaml, const std::string& name = "fleet.yaml") {
+MissionReading mission_of(const std::string& yaml, const std::string& name = "fleet.yaml") {
   Document document = Document::from(YAML::Load(yaml), name);
   Section top(document, document.root(), "");
-  Reading reading;
+  MissionReading reading;
   read_mission(top, reading.twin);
   if (const Status status = document.status(); !status) reading.problems = status.error().message;
   return reading;
 }
 
 /// As the robot r1 of three reads it.
-Reading read_robot(const std::string& yaml, const std::string& name, bool origin = true) {
+MissionReading read_robot(const std::string& yaml, const std::string& name, bool origin = true) {
   Document document = Document::from(YAML::Load(yaml), name);
   Section top(document, document.root(), "");
   agent::AgentConfig agent;
   agent.id = *AgentId::parse("r1");
   for (const char* id : {"r1", "r2", "r3"}) agent.exchange.fleet.push_back(*AgentId::parse(id));
   if (origin) agent.site_origin = geo_point_from_degrees(39.0, -3.0, 600.0);
-  Reading reading;
+  MissionReading reading;
   reading.robot = read_mission(top, agent);
   if (const Status status = document.status(); !status) reading.problems = status.error().message;
   return reading;
 }
 
 TEST(MissionSection, WithoutItTheDefaultsHold) {
-  const Reading reading = read("other: 1");
+  const MissionReading reading = mission_of("other: 1");
   EXPECT_EQ(reading.problems, "");
   EXPECT_TRUE(reading.twin.mission.file.empty());
   EXPECT_EQ(reading.twin.mission.division.method, planning::DivisionMethod::kBalanced);
@@ -52,7 +52,7 @@ TEST(MissionSection, WithoutItTheDefaultsHold) {
 }
 
 TEST(MissionSection, EveryKeyIsRead) {
-  const Reading reading = read(
+  const MissionReading reading = mission_of(
       "mission: {every: 3, max_row_length: 50, division: energy, rendezvous: false, speed: 1.2,"
       " clearance: 0.9, battery_reserve: 0.3, c_max: 60, map_bytes_per_metre: 1000, lost_after: 30,"
       " low_battery: 0.1, meeting_timeout: 99, map_error_m: 2, unknown_obstacles: 4}");
@@ -78,7 +78,7 @@ TEST(MissionSection, ARobotsOwnFileGivesTheAbilitiesOfAll) {
   testing::TemporaryFolder folder;
   std::ofstream(folder.path() / "site.geojson") << "{}";
   const std::string name = (folder.path() / "r1.yaml").string();
-  const Reading reading = read_robot(
+  const MissionReading reading = read_robot(
       "mission: {file: site.geojson, speed: 1.4, every: 2, robots: {r1: {radius: 0.4, base_height: 0.2}, "
       "r2: {max_speed: 0.9, battery_wh: 100, energy_per_metre: 36}, r3: {max_speed: 3}}}",
       name);
@@ -109,25 +109,26 @@ TEST(MissionSection, ARobotsOwnFileGivesTheAbilitiesOfAll) {
 }
 
 TEST(MissionSection, ProblemsNameLineKeyAndRule) {
-  EXPECT_THAT(read("a: 1\nmission:\n  division: fair\n").problems,
+  EXPECT_THAT(mission_of("a: 1\nmission:\n  division: fair\n").problems,
               HasSubstr("fleet.yaml:3: mission.division"));
-  EXPECT_THAT(read("mission: {evry: 2}").problems, HasSubstr("every"));
-  EXPECT_THAT(read("mission: {every: 0}").problems, HasSubstr("every: must be at least 1"));
-  EXPECT_THAT(read("mission: {low_battery: 2}").problems, HasSubstr("low_battery"));
-  EXPECT_THAT(read("mission: {file: none.geojson}").problems, HasSubstr("no such file"));
-  EXPECT_THAT(read("mission: {waypoints: rows.geojson}").problems,
+  EXPECT_THAT(mission_of("mission: {evry: 2}").problems, HasSubstr("every"));
+  EXPECT_THAT(mission_of("mission: {every: 0}").problems, HasSubstr("every: must be at least 1"));
+  EXPECT_THAT(mission_of("mission: {low_battery: 2}").problems, HasSubstr("low_battery"));
+  EXPECT_THAT(mission_of("mission: {file: none.geojson}").problems, HasSubstr("no such file"));
+  EXPECT_THAT(mission_of("mission: {waypoints: rows.geojson}").problems,
               HasSubstr("mission.waypoints: is not a key any more; name the site's drawing with file"));
-  EXPECT_THAT(read("mission: {map_error_m: -1}").problems, HasSubstr("mission.map_error_m: expected m"));
+  EXPECT_THAT(mission_of("mission: {map_error_m: -1}").problems,
+              HasSubstr("mission.map_error_m: expected m"));
 }
 
 TEST(MissionSection, TheDrawingIsRelativeToTheFile) {
   testing::TemporaryFolder folder;
   std::ofstream(folder.path() / "rows.geojson") << "{}";
   const std::string name = (folder.path() / "fleet.yaml").string();
-  const Reading reading = read("mission: {file: rows.geojson}", name);
+  const MissionReading reading = mission_of("mission: {file: rows.geojson}", name);
   EXPECT_EQ(reading.problems, "");
   EXPECT_EQ(reading.twin.mission.file, folder.path() / "rows.geojson");
-  EXPECT_THAT(read("mission: {file: rows.geojson, map_error_m: 1}", name).problems,
+  EXPECT_THAT(mission_of("mission: {file: rows.geojson, map_error_m: 1}", name).problems,
               HasSubstr("is for the drawing that the twin makes"));
 }
 

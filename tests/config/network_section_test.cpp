@@ -12,21 +12,21 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
+struct NetworkReading {
   bus::LocalNetworkConfig network;
   std::vector<RadioBlackout> blackouts;
   std::string problems;
 };
 
-Read read(const std::string& yaml) {
-  Read result;
+NetworkReading network_of(const std::string& yaml) {
+  NetworkReading result;
   result.problems =
       problems_of(yaml, [&](Section& top) { read_network(top, result.network, result.blackouts); });
   return result;
 }
 
 TEST(NetworkSection, ReadsBothRadios) {
-  const Read r = read(
+  const NetworkReading r = network_of(
       "network: {seed: 9, long_range: {rate_kbit_s: 64, delay: 0.05, loss: 0.1},\n"
       "  short_range: {rate_kbit_s: 8000, max_range: 60}}\n");
   EXPECT_EQ(r.problems, "");
@@ -40,7 +40,7 @@ TEST(NetworkSection, ReadsBothRadios) {
 }
 
 TEST(NetworkSection, ReadsBlackoutsOfALinkOrOfOneRobot) {
-  const Read r = read(
+  const NetworkReading r = network_of(
       "network:\n  blackouts:\n    - {link: long_range, from: 10, until: 20}\n"
       "    - {link: short_range, from: 0, until: 5, agent: r2}\n");
   EXPECT_EQ(r.problems, "");
@@ -56,7 +56,7 @@ TEST(NetworkSection, ReadsBlackoutsOfALinkOrOfOneRobot) {
 
 TEST(NetworkSection, ProblemsNameTheKeyAndItsLine) {
   const auto blackout = [](const std::string& keys) {
-    return read("network:\n  blackouts:\n    - {" + keys + "}\n").problems;
+    return network_of("network:\n  blackouts:\n    - {" + keys + "}\n").problems;
   };
   EXPECT_THAT(blackout("link: onboard, from: 0, until: 1"),
               HasSubstr("robot.yaml:3: network.blackouts[0].link: "));
@@ -64,7 +64,8 @@ TEST(NetworkSection, ProblemsNameTheKeyAndItsLine) {
   EXPECT_THAT(blackout("link: long_range, from: -1, until: 5"), HasSubstr("expected 0 <= from < until"));
   EXPECT_THAT(blackout("link: long_range, from: 0, until: 5, agent: 'a b'"),
               HasSubstr("blackouts[0].agent: "));
-  EXPECT_THAT(read("network:\n  long_range: {loss: 1}\n").problems, HasSubstr("loss must be in [0, 1)"));
+  EXPECT_THAT(network_of("network:\n  long_range: {loss: 1}\n").problems,
+              HasSubstr("loss must be in [0, 1)"));
 }
 
 }  // namespace

@@ -10,15 +10,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Reading {
+struct RecordingReading {
   std::optional<RecordingConfig> recording;
   std::string problems;
 };
 
-Reading read(const std::string& recording) {
+RecordingReading recording_of(const std::string& recording) {
   Document document = Document::from(YAML::Load("{recording: {" + recording + "}}"), "field/r1.yaml");
   Section top(document, document.root(), "");
-  Reading reading{read_recording(top), ""};
+  RecordingReading reading{read_recording(top), ""};
   if (const Status status = document.status(); !status) reading.problems = status.error().message;
   return reading;
 }
@@ -32,7 +32,7 @@ TEST(RecordingSection, IsAbsentWithoutItsKey) {
 }
 
 TEST(RecordingSection, NeedsNoMoreThanAPath) {
-  const Reading reading = read("path: drive.bag");
+  const RecordingReading reading = recording_of("path: drive.bag");
   ASSERT_EQ(reading.problems, "");
   EXPECT_EQ(reading.recording->path, "field/drive.bag");
   EXPECT_EQ(reading.recording->start, std::nullopt) << "recordings keep their times";
@@ -43,7 +43,7 @@ TEST(RecordingSection, NeedsNoMoreThanAPath) {
 }
 
 TEST(RecordingSection, EveryKeyIsRead) {
-  const Reading reading = read(
+  const RecordingReading reading = recording_of(
       "path: /data/0005, start: 0, frames: [3, 9], frame_rate: 20,"
       " gps_error: {sigma: 2, correlation_time: 30, seed: 4},"
       " topics: {points: /velodyne, imu: none, fix: /gps, wheel: /odom}");
@@ -65,20 +65,23 @@ TEST(RecordingSection, EveryKeyIsRead) {
 }
 
 TEST(RecordingSection, ProblemsNameTheKey) {
-  EXPECT_THAT(read("").problems, HasSubstr("recording.path: expected the folder or file of a recording"));
-  EXPECT_THAT(read("path: x, start: -1").problems, HasSubstr("recording.start: expected seconds >= 0"));
+  EXPECT_THAT(recording_of("").problems,
+              HasSubstr("recording.path: expected the folder or file of a recording"));
+  EXPECT_THAT(recording_of("path: x, start: -1").problems,
+              HasSubstr("recording.start: expected seconds >= 0"));
   for (const char* frames : {"[4, 3]", "[-1, 3]", "[0, 1.5]", "[0.5, 2]", "[3, 1e30]"}) {
-    EXPECT_THAT(read(std::string("path: x, frames: ") + frames).problems,
+    EXPECT_THAT(recording_of(std::string("path: x, frames: ") + frames).problems,
                 HasSubstr("recording.frames: expected [first, last] with 0 <= first <= last"))
         << frames;
   }
-  EXPECT_EQ(read("path: x, frames: [3, 3]").problems, "") << "a single frame";
-  EXPECT_THAT(read("path: x, gps_error: {sgma: 1}").problems,
+  EXPECT_EQ(recording_of("path: x, frames: [3, 3]").problems, "") << "a single frame";
+  EXPECT_THAT(recording_of("path: x, gps_error: {sgma: 1}").problems,
               HasSubstr("recording.gps_error.sgma: unknown key; did you mean 'sigma'?"));
-  EXPECT_THAT(read("path: x, frame_rate: 0").problems,
+  EXPECT_THAT(recording_of("path: x, frame_rate: 0").problems,
               HasSubstr("recording.frame_rate must be a positive number of frames per second"));
-  EXPECT_THAT(read("path: x, gps_error: {sigma: 0}").problems, HasSubstr("recording.gps_error.sigma must"));
-  EXPECT_THAT(read("path: x, topics: {point: /p}").problems, HasSubstr("did you mean 'points'?"));
+  EXPECT_THAT(recording_of("path: x, gps_error: {sigma: 0}").problems,
+              HasSubstr("recording.gps_error.sigma must"));
+  EXPECT_THAT(recording_of("path: x, topics: {point: /p}").problems, HasSubstr("did you mean 'points'?"));
 }
 
 }  // namespace

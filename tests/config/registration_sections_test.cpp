@@ -10,10 +10,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-AgentReading read(const std::string& yaml) { return agent_of(yaml, read_registration); }
+AgentReading registration_of(const std::string& yaml) { return agent_of(yaml, read_registration); }
 
 TEST(RegistrationSections, ReadsSpherizeAndBothMethods) {
-  const AgentReading r = read(
+  const AgentReading r = registration_of(
       "spherize: {radius: 30, voxel: 0.2, remove_ground: false, ground_voxel: 1, max_bytes: 9000}\n"
       "registration: {method: paper, voxel: 0.15, surfel: 0.5, prior_sigmas: 3, max_search: 20, min_overlap: "
       "0.5,\n"
@@ -71,14 +71,15 @@ TEST(RegistrationSections, PlacementsWeighGByTheFiltersCorrelationTime) {
 }
 
 TEST(RegistrationSections, ProblemsNameTheKeyAndItsLine) {
-  EXPECT_THAT(read("spherize:\n  max_bytes: 25001\n").problems,
+  EXPECT_THAT(registration_of("spherize:\n  max_bytes: 25001\n").problems,
               HasSubstr("robot.yaml:2: spherize.max_bytes: at most 25000 bytes"));
-  EXPECT_THAT(read("registration:\n  method: icp\n").problems,
+  EXPECT_THAT(registration_of("registration:\n  method: icp\n").problems,
               HasSubstr("robot.yaml:2: registration.method: "));
-  EXPECT_THAT(read("placement:\n  method: best\n").problems,
+  EXPECT_THAT(registration_of("placement:\n  method: best\n").problems,
               HasSubstr("robot.yaml:2: placement.method: expected 'paper' or 'graph', found 'best'"));
-  EXPECT_THAT(read("registration:\n  paper: {voxell: 1}\n").problems, HasSubstr("did you mean 'voxel'?"));
-  EXPECT_THAT(read("registration:\n  min_weight: 0.4\n").problems,
+  EXPECT_THAT(registration_of("registration:\n  paper: {voxell: 1}\n").problems,
+              HasSubstr("did you mean 'voxel'?"));
+  EXPECT_THAT(registration_of("registration:\n  min_weight: 0.4\n").problems,
               HasSubstr("min_weight must lie in (0.5, 1)"));
 }
 

@@ -12,39 +12,40 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
+struct PerceptionReading {
   agent::PerceptionConfig perception;
   std::string problems;
 };
 
-Read read(const std::string& yaml) {
-  Read result;
+PerceptionReading perception_of(const std::string& yaml) {
+  PerceptionReading result;
   result.problems = problems_of(yaml, [&](Section& top) { read_perception(top, result.perception); });
   return result;
 }
 
 TEST(SensorSections, TopicsAreThoseOfRos2OnTheWire) {
-  const Read r = read("topics: {points: /velodyne_points, imu: rt/imu/data}\n");
+  const PerceptionReading r = perception_of("topics: {points: /velodyne_points, imu: rt/imu/data}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.perception.topics.points, "rt/velodyne_points");
   EXPECT_EQ(r.perception.topics.imu, "rt/imu/data");
   EXPECT_EQ(r.perception.topics.fix, agent::SensorTopics().fix);
-  EXPECT_THAT(read("topics:\n  wheel: ''\n").problems,
+  EXPECT_THAT(perception_of("topics:\n  wheel: ''\n").problems,
               HasSubstr("robot.yaml:2: topics.wheel: expected the name"));
 }
 
 TEST(SensorSections, PointsMayBeOfALivoxDriver) {
-  EXPECT_EQ(read("{}").perception.topics.points_type, ros_codec::PointsType::kPointCloud2);
-  const Read r = read("topics: {points: /livox/lidar, points_type: livox_ros_driver2/msg/CustomMsg}\n");
+  EXPECT_EQ(perception_of("{}").perception.topics.points_type, ros_codec::PointsType::kPointCloud2);
+  const PerceptionReading r =
+      perception_of("topics: {points: /livox/lidar, points_type: livox_ros_driver2/msg/CustomMsg}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.perception.topics.points_type, ros_codec::PointsType::kLivoxDriver2);
-  EXPECT_THAT(read("topics:\n  points_type: CustomMsg\n").problems,
+  EXPECT_THAT(perception_of("topics:\n  points_type: CustomMsg\n").problems,
               HasSubstr("robot.yaml:2: topics.points_type: CustomMsg is no type of points that is read; "
                         "expected one of sensor_msgs/msg/PointCloud2"));
 }
 
 TEST(SensorSections, TheLidarIsAModelWithItsMountAndRanges) {
-  const Read r = read(
+  const PerceptionReading r = perception_of(
       "lidar: {model: os1-64, translation: [0.1, 0, 0.35], rotation_rpy_deg: [0, 0, 90], max_range: 55,\n"
       "  min_range: 1.5, range_noise: 0.05, velodyne_port: 2368}\n");
   EXPECT_EQ(r.problems, "");
@@ -61,8 +62,9 @@ TEST(SensorSections, TheLidarIsAModelWithItsMountAndRanges) {
 /// Metadata of a LiDAR in a folder, and `lidar` with what names them.
 class OusterSections : public ::testing::Test {
  protected:
-  Read read_lidar(const std::string& keys, const std::string& more = "") const {
-    return read("lidar:\n  ouster_metadata: " + (folder_.path() / "os.json").string() + "\n" + keys + more);
+  PerceptionReading read_lidar(const std::string& keys, const std::string& more = "") const {
+    return perception_of("lidar:\n  ouster_metadata: " + (folder_.path() / "os.json").string() + "\n" + keys +
+                         more);
   }
   void SetUp() override {
     folder_.write("os.json", fleetmap::testing::OusterDevice(Duration::zero()).metadata());
@@ -71,19 +73,19 @@ class OusterSections : public ::testing::Test {
 };
 
 TEST_F(OusterSections, NameTheMetadataAndThePorts) {
-  const Read r = read_lidar("  ouster_port: 7502\n  ouster_imu_port: 7503\n");
+  const PerceptionReading r = read_lidar("  ouster_port: 7502\n  ouster_imu_port: 7503\n");
   EXPECT_EQ(r.problems, "");
   ASSERT_TRUE(r.perception.ouster.metadata);
   EXPECT_EQ(r.perception.ouster.metadata->device, "OS-1-16 122");
   EXPECT_EQ(r.perception.ouster.lidar_port, 7502);
   EXPECT_EQ(r.perception.ouster.imu_port, 7503);
   EXPECT_EQ(read_lidar("").problems, "") << "for captures";
-  EXPECT_EQ(read("{}").perception.ouster.lidar_port, 0);
+  EXPECT_EQ(perception_of("{}").perception.ouster.lidar_port, 0);
 }
 
 TEST_F(OusterSections, ProblemsSayWhatToDo) {
   EXPECT_THAT(
-      read("lidar:\n  ouster_port: 7502\n").problems,
+      perception_of("lidar:\n  ouster_port: 7502\n").problems,
       HasSubstr("robot.yaml:2: lidar.ouster_port: expected lidar.ouster_metadata as well: a file that "
                 "`curl http://SENSOR/api/v1/sensor/metadata` writes"));
   EXPECT_THAT(read_lidar("  ouster_port: 70000\n").problems, HasSubstr("expected a UDP port, usually 7502"));
@@ -104,19 +106,20 @@ TEST_F(OusterSections, ProblemsSayWhatToDo) {
   EXPECT_THAT(read_lidar("").problems,
               HasSubstr("os.json: beam_altitude_angles, beam_azimuth_angles: expected"));
   EXPECT_THAT(
-      read("lidar:\n  ouster_metadata: /no/such.json\n").problems,
+      perception_of("lidar:\n  ouster_metadata: /no/such.json\n").problems,
       HasSubstr("robot.yaml:2: lidar.ouster_metadata: /no/such.json: cannot be read; expected what `curl"));
 }
 
 TEST(SensorSections, TheMapReachesAsFarAsTheScans) {
-  EXPECT_EQ(read("lidar: {max_range: 120}\n").perception.odometry.map_radius, 120.0);
-  EXPECT_EQ(read("lidar: {max_range: 120}\nodometry: {map_radius: 150}\n").perception.odometry.map_radius,
-            150.0);
-  EXPECT_EQ(read("{}").perception.odometry.map_radius, odometry::LoamConfig{}.map_radius);
+  EXPECT_EQ(perception_of("lidar: {max_range: 120}\n").perception.odometry.map_radius, 120.0);
+  EXPECT_EQ(
+      perception_of("lidar: {max_range: 120}\nodometry: {map_radius: 150}\n").perception.odometry.map_radius,
+      150.0);
+  EXPECT_EQ(perception_of("{}").perception.odometry.map_radius, odometry::LoamConfig{}.map_radius);
 }
 
 TEST(SensorSections, TheOdometryAndItsPriorsCanBeSet) {
-  const Read r = read(
+  const PerceptionReading r = perception_of(
       "odometry: {use_imu: false, use_wheel: false, deskew: false, match_spacing: 0.5, insert_spacing: "
       "0.25,\n"
       "  max_map_windows: 20000, fine_resolution: 0.4, coarse_resolution: 2, max_iterations: 5, "
@@ -143,7 +146,7 @@ TEST(SensorSections, TheOdometryAndItsPriorsCanBeSet) {
 }
 
 TEST(SensorSections, ImuGpsAndWheelsAreOfTheFilter) {
-  const Read r = read(
+  const PerceptionReading r = perception_of(
       "imu: {translation: [0, 0.2, 0], rotation_rpy_deg: [0, 0, 180], gyro_noise: 0.003, accel_noise: 0.04,\n"
       "  use_orientation: true, max_gap: 0.5}\n"
       "gps: {translation: [0, 0, 0.6], correlation_time: 20, correlated_share: 0.5, sigma_floor: 0.2, "
@@ -170,18 +173,18 @@ TEST(SensorSections, ImuGpsAndWheelsAreOfTheFilter) {
 }
 
 TEST(SensorSections, ProblemsNameTheKeyWhereverItStands) {
-  EXPECT_THAT(read("lidar:\n  model: vlp17\n").problems, HasSubstr("robot.yaml:2: lidar.model: "));
-  EXPECT_THAT(read("lidar:\n  range_noise: 5\n").problems,
+  EXPECT_THAT(perception_of("lidar:\n  model: vlp17\n").problems, HasSubstr("robot.yaml:2: lidar.model: "));
+  EXPECT_THAT(perception_of("lidar:\n  range_noise: 5\n").problems,
               HasSubstr("robot.yaml:2: lidar.range_noise: must be"))
       << "a setting of the odometry that stands in another section";
-  EXPECT_THAT(read("odometry:\n  max_iterations: 0\n").problems,
+  EXPECT_THAT(perception_of("odometry:\n  max_iterations: 0\n").problems,
               HasSubstr("robot.yaml:2: odometry.max_iterations: must be"));
   for (const char* port : {"0", "65536"}) {
-    EXPECT_THAT(read(std::string("lidar:\n  velodyne_port: ") + port).problems,
+    EXPECT_THAT(perception_of(std::string("lidar:\n  velodyne_port: ") + port).problems,
                 HasSubstr("robot.yaml:2: lidar.velodyne_port: expected a UDP port"));
   }
-  EXPECT_THAT(read("gps: {sigma: 1}\n").problems, HasSubstr("gps.sigma: unknown key"));
-  EXPECT_THAT(read("wheel: {speed_sigma: 0}\n").problems, HasSubstr("wheel.speed_sigma"));
+  EXPECT_THAT(perception_of("gps: {sigma: 1}\n").problems, HasSubstr("gps.sigma: unknown key"));
+  EXPECT_THAT(perception_of("wheel: {speed_sigma: 0}\n").problems, HasSubstr("wheel.speed_sigma"));
 }
 
 }  // namespace

@@ -7,11 +7,12 @@
 #include <limits>
 #include <random>
 
+#include "eval/points.hpp"
+
 namespace fleetmap::eval {
 namespace {
 
 using ::testing::ElementsAre;
-using Points = std::vector<Eigen::Vector3f>;
 
 TEST(DensityAt, CountsPointsUpToTheRadiusAndTheQueryItself) {
   const Points points{{0, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 0, 1.001f}, {2, 0, 0}};

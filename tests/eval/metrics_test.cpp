@@ -7,12 +7,11 @@
 #include <limits>
 #include <random>
 
+#include "eval/points.hpp"
 #include "fleetmap/eval/density.hpp"
 
 namespace fleetmap::eval {
 namespace {
-
-using Points = std::vector<Eigen::Vector3f>;
 
 /// z = height on [0, width) x [0, depth), one point every `step`.
 Points plane(float width, float depth, float step, float height = 0.0f) {

@@ -4,15 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+
+#include "support/field_bounds.hpp"
+#include "support/occurrences.hpp"
 
 namespace fleetmap::eval {
 namespace {
 
+using fleetmap::testing::kNaN;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Range range(double low, double high) {
   Range both;
@@ -21,16 +22,10 @@ Range range(double low, double high) {
   return both;
 }
 
-int count(const std::string& text, const std::string& part) {
-  int found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
-
 TEST(PlotRange, HoldsFiniteValuesOnly) {
   Range some;
   EXPECT_TRUE(some.empty());
-  for (const double value : {kNan, HUGE_VAL, -HUGE_VAL}) some.add(value);
+  for (const double value : {kNaN<double>, HUGE_VAL, -HUGE_VAL}) some.add(value);
   EXPECT_TRUE(some.empty());
   for (const double value : {3.0, -2.0, 1.0}) some.add(value);
   EXPECT_EQ(some.low, -2.0);
@@ -70,10 +65,11 @@ TEST(PlotFrame, ALogarithmicAxisBeginsAndEndsAtPowersOfTen) {
   EXPECT_NEAR(frame.y_pixel(10), 16, 1e-9);
   EXPECT_NEAR(frame.y_pixel(0.1), 300 - 284 / 3.0, 1e-9);
   EXPECT_TRUE(frame.shows_y(1e-9));
-  for (const double hidden : {0.0, -1.0, kNan, HUGE_VAL}) EXPECT_FALSE(frame.shows_y(hidden)) << hidden;
+  for (const double hidden : {0.0, -1.0, kNaN<double>, HUGE_VAL})
+    EXPECT_FALSE(frame.shows_y(hidden)) << hidden;
   const PlotFrame linear({}, range(0, 1), range(0, 1), {});
   EXPECT_TRUE(linear.shows_y(-1.0));
-  EXPECT_FALSE(linear.shows_y(kNan));
+  EXPECT_FALSE(linear.shows_y(kNaN<double>));
 }
 
 TEST(PlotFrame, TicksAreRoundNumbers) {
@@ -115,7 +111,7 @@ TEST(PlotFrame, TheLegendHasTheNamesAndTheColoursOfTheirSeries) {
   const PlotFrame crowded({}, range(0, 1), range(0, 1), many), free({}, range(0, 1), range(0, 1), {});
   EXPECT_GT(crowded.y_pixel(1), free.y_pixel(1) + 3 * 18.0 * 0.9);
   EXPECT_EQ(crowded.y_pixel(0) < crowded.floor_pixel(), true);
-  EXPECT_EQ(count(crowded.finish(), std::string(30, 'x')), 8);
+  EXPECT_EQ(fleetmap::testing::occurrences(crowded.finish(), std::string(30, 'x')), 8u);
 }
 
 TEST(PlotFrame, WithoutValuesItIsStillAPlot) {
@@ -130,7 +126,7 @@ TEST(PlotFrame, PixelsHaveTwoDecimalsAndALimit) {
   EXPECT_EQ(pixel(1.234), "1.23");
   EXPECT_EQ(pixel(-0.5), "-0.50");
   EXPECT_EQ(pixel(1e300), "1000000.00");
-  EXPECT_EQ(pixel(kNan), "0.00");
+  EXPECT_EQ(pixel(kNaN<double>), "0.00");
 }
 
 }  // namespace

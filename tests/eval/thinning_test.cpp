@@ -9,15 +9,17 @@
 #include <random>
 #include <set>
 
+#include "eval/points.hpp"
+#include "support/field_bounds.hpp"
+
 namespace fleetmap::eval {
 namespace {
 
+using fleetmap::testing::kNaN;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-using Points = std::vector<Eigen::Vector3f>;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 Points scattered(std::size_t count) {
@@ -35,10 +37,10 @@ std::multiset<std::array<float, 3>> as_set(const Points& points) {
 }
 
 TEST(Thinning, UsablePointsAreFiniteNearAndMoved) {
-  const cloud::PointCloud cloud{{{1, 2, 3}, {kNan, 0, 0}, {0, 0, kInf}, {0, -1e6f, 0}, {4, 5, 6}}, {}};
+  const cloud::PointCloud cloud{{{1, 2, 3}, {kNaN<float>, 0, 0}, {0, 0, kInf}, {0, -1e6f, 0}, {4, 5, 6}}, {}};
   EXPECT_THAT(usable(cloud, {1, 1, 1}), ElementsAre(Eigen::Vector3f(0, 1, 2), Eigen::Vector3f(3, 4, 5)));
   EXPECT_EQ(middle_of(cloud), Eigen::Vector3f(3, 4, 5)) << "of 2.5, 3.5 and 4.5, in whole metres";
-  EXPECT_EQ(middle_of({{{kNan, 0, 0}}, {}}), Eigen::Vector3f::Zero());
+  EXPECT_EQ(middle_of({{{kNaN<float>, 0, 0}}, {}}), Eigen::Vector3f::Zero());
   EXPECT_EQ(middle_of({}), Eigen::Vector3f::Zero());
 }
 

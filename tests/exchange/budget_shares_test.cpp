@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "exchange/robots.hpp"
 #include "exchange/sim_fleet.hpp"
 
 namespace fleetmap::exchange {
@@ -14,7 +15,6 @@ using testing::agent;
 
 constexpr double kBudget = 18'000.0;  // B/s
 constexpr Duration kPeriod = std::chrono::seconds(5);
-const Stamp kStart = stamp_from_ns(1'000'000'000);
 
 /// Robots that tell each other their status, which may get lost and be late. Only backlogs are made up.
 class Fleet {

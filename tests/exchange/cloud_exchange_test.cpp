@@ -5,18 +5,16 @@
 #include <chrono>
 
 #include "exchange/recorded_cloud_client.hpp"
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using fleetmap::testing::agent;
 using fleetmap::testing::random_bytes;
 
-const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kThird = agent("r3");
 const std::vector<AgentId> kOthers{kPeer, kThird};
 const NodeId kOurs{kSelf, 0}, kTheirs{kPeer, 0};
-const Stamp kStart = stamp_from_ns(1'000'000'000'000);
 
 class CloudExchangeTest : public ::testing::Test {
  protected:
@@ -27,7 +25,7 @@ class CloudExchangeTest : public ::testing::Test {
 
   fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
-  testing::RecordedCloudClient closer_;
+  RecordedCloudClient closer_;
   SendQueue queue_{{}, kOthers, [](const Message&) { return std::size_t{10}; }};
   std::vector<Event> events_;
   CloudExchange clouds_{{}, store_, closer_, queue_, events_};

@@ -15,34 +15,36 @@ using fleetmap::testing::expect_refused;
 using fleetmap::testing::kInfinity;
 using fleetmap::testing::kNaN;
 
-using Config = CloudTransferConfig;
-
-TEST(CloudTransferConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
+TEST(CloudTransferConfig, DefaultsAreValid) { EXPECT_TRUE(CloudTransferConfig{}.validate()); }
 
 TEST(CloudTransferConfig, FragmentsCanCarryTheLargestCloud) {
   // A request can name as many pieces as are missing.
   const auto max_bytes =
       static_cast<std::uint32_t>(messages::CloudRequest::kMaxMissing * messages::CloudFragment::kMaxPayload);
-  expect_accepted(Config{}, &Config::max_cloud_bytes, {1u, max_bytes});
-  expect_refused(Config{}, &Config::max_cloud_bytes, {0u, max_bytes + 1, UINT32_MAX}, "max_cloud_bytes");
+  expect_accepted(CloudTransferConfig{}, &CloudTransferConfig::max_cloud_bytes, {1u, max_bytes});
+  expect_refused(CloudTransferConfig{}, &CloudTransferConfig::max_cloud_bytes,
+                 {0u, max_bytes + 1, UINT32_MAX}, "max_cloud_bytes");
 }
 
 TEST(CloudTransferConfig, CountsAreAtLeastOne) {
-  expect_accepted(Config{}, &Config::max_kept, {1});
-  expect_refused(Config{}, &Config::max_kept, {0}, "max_kept");
-  expect_accepted(Config{}, &Config::max_receiving, {1});
-  expect_refused(Config{}, &Config::max_receiving, {0}, "max_receiving");
-  expect_accepted(Config{}, &Config::max_tries, {1});
-  expect_refused(Config{}, &Config::max_tries, {0, -1}, "max_tries");
+  expect_accepted(CloudTransferConfig{}, &CloudTransferConfig::max_kept, {1});
+  expect_refused(CloudTransferConfig{}, &CloudTransferConfig::max_kept, {0}, "max_kept");
+  expect_accepted(CloudTransferConfig{}, &CloudTransferConfig::max_receiving, {1});
+  expect_refused(CloudTransferConfig{}, &CloudTransferConfig::max_receiving, {0}, "max_receiving");
+  expect_accepted(CloudTransferConfig{}, &CloudTransferConfig::max_tries, {1});
+  expect_refused(CloudTransferConfig{}, &CloudTransferConfig::max_tries, {0, -1}, "max_tries");
 }
 
 TEST(CloudTransferConfig, TimeoutsArePositiveAndDoNotShrink) {
-  for (Duration Config::*timeout : {&Config::first_timeout, &Config::gap_timeout, &Config::max_timeout}) {
-    expect_accepted(Config{}, timeout, {Duration{1}});
-    expect_refused(Config{}, timeout, {Duration::zero(), Duration{-1}}, "timeouts");
+  for (Duration CloudTransferConfig::*timeout :
+       {&CloudTransferConfig::first_timeout, &CloudTransferConfig::gap_timeout,
+        &CloudTransferConfig::max_timeout}) {
+    expect_accepted(CloudTransferConfig{}, timeout, {Duration{1}});
+    expect_refused(CloudTransferConfig{}, timeout, {Duration::zero(), Duration{-1}}, "timeouts");
   }
-  expect_accepted(Config{}, &Config::backoff, {1.0, 10.0});
-  expect_refused(Config{}, &Config::backoff, {0.99, 10.01, kNaN<double>, kInfinity<double>}, "backoff");
+  expect_accepted(CloudTransferConfig{}, &CloudTransferConfig::backoff, {1.0, 10.0});
+  expect_refused(CloudTransferConfig{}, &CloudTransferConfig::backoff,
+                 {0.99, 10.01, kNaN<double>, kInfinity<double>}, "backoff");
 }
 
 }  // namespace

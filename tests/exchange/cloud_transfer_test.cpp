@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -12,10 +13,7 @@ namespace {
 using testing::agent;
 using testing::random_bytes;
 
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
-const NodeId kNode{kPeer, 4};
-const Stamp kStart = stamp_from_ns(1'000'000'000);
+const NodeId kCloudNode{kPeer, 4};
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
 CloudRequest request_for(std::uint32_t seq, std::vector<std::uint16_t> missing = {}) {
@@ -34,8 +32,8 @@ TEST(CloudTransfer, carries_any_cloud_through_loss_disorder_and_doubles) {
     const Bytes cloud = random_bytes(1 + random() % 25'600, seed);
     CloudSender sender(kPeer, {});
     CloudReceiver receiver(kSelf, {});
-    ASSERT_TRUE(sender.offer(kNode, cloud, kStart));
-    ASSERT_TRUE(receiver.want(kNode, kStart));
+    ASSERT_TRUE(sender.offer(kCloudNode, cloud, kStart));
+    ASSERT_TRUE(receiver.want(kCloudNode, kStart));
     std::optional<Bytes> whole;
     std::uint64_t fragments_sent = 0;
     std::uint64_t lost = 0;
@@ -69,7 +67,7 @@ TEST(CloudTransfer, carries_any_cloud_through_loss_disorder_and_doubles) {
 
 TEST(CloudTransfer, refuses_and_counts_hostile_fragments) {
   const Bytes cloud = random_bytes(5000, 1);
-  const auto good = split_cloud(kPeer, kSelf, kNode, cloud);
+  const auto good = split_cloud(kPeer, kSelf, kCloudNode, cloud);
   std::vector<CloudFragment> hostile;
   const auto spoil = [&](auto change) {
     CloudFragment fragment = good[1];
@@ -90,7 +88,7 @@ TEST(CloudTransfer, refuses_and_counts_hostile_fragments) {
   spoil([](auto& f) { f.from = agent("r3"); });
   spoil([](auto& f) { f.to = agent("r3"); });
   CloudReceiver receiver(kSelf, {});
-  ASSERT_TRUE(receiver.want(kNode, kStart));
+  ASSERT_TRUE(receiver.want(kCloudNode, kStart));
   EXPECT_FALSE(receiver.add(good[0], kStart));
   for (const auto& fragment : hostile) EXPECT_FALSE(receiver.add(fragment, kStart));
   EXPECT_EQ(receiver.stats().hostile, hostile.size());
@@ -105,9 +103,9 @@ TEST(CloudTransfer, begins_again_when_the_sender_made_the_cloud_anew) {
   CloudSender sender(kPeer, {});
   CloudReceiver receiver(kSelf, {});
   const Bytes fresh = random_bytes(9000, 2);
-  ASSERT_TRUE(receiver.want(kNode, kStart));
-  receiver.add(split_cloud(kPeer, kSelf, kNode, random_bytes(8000, 1))[0], kStart);
-  ASSERT_TRUE(sender.offer(kNode, fresh, kStart));
+  ASSERT_TRUE(receiver.want(kCloudNode, kStart));
+  receiver.add(split_cloud(kPeer, kSelf, kCloudNode, random_bytes(8000, 1))[0], kStart);
+  ASSERT_TRUE(sender.offer(kCloudNode, fresh, kStart));
   std::optional<Bytes> whole;
   for (Stamp now = kStart; !whole && now < kStart + std::chrono::minutes(2); now += kTick) {
     for (const auto& request : receiver.tick(now).requests) {
@@ -122,7 +120,7 @@ TEST(CloudTransfer, begins_again_when_the_sender_made_the_cloud_anew) {
 
 TEST(CloudTransfer, gives_up_on_a_silent_or_lying_sender_and_counts_it) {
   CloudReceiver receiver(kSelf, {});
-  ASSERT_TRUE(receiver.want(kNode, kStart));
+  ASSERT_TRUE(receiver.want(kCloudNode, kStart));
   std::size_t requests = 0;
   std::vector<NodeId> abandoned;
   Stamp now = kStart;
@@ -131,22 +129,22 @@ TEST(CloudTransfer, gives_up_on_a_silent_or_lying_sender_and_counts_it) {
     requests += due.requests.size();
     abandoned = due.abandoned;
   }
-  EXPECT_EQ(abandoned, std::vector<NodeId>{kNode});
+  EXPECT_EQ(abandoned, std::vector<NodeId>{kCloudNode});
   EXPECT_EQ(requests, 8u);
   EXPECT_TRUE(receiver.idle());
   // A sender whose clouds never match their hash.
-  ASSERT_TRUE(receiver.want(kNode, now));
+  ASSERT_TRUE(receiver.want(kCloudNode, now));
   abandoned.clear();
   for (const Stamp end = now + std::chrono::minutes(10); abandoned.empty() && now < end; now += kTick) {
     auto due = receiver.tick(now);
     abandoned = due.abandoned;
     for (std::size_t k = 0; k < due.requests.size(); ++k) {
-      auto fragment = split_cloud(kPeer, kSelf, kNode, Bytes(100, 7))[0];
+      auto fragment = split_cloud(kPeer, kSelf, kCloudNode, Bytes(100, 7))[0];
       fragment.payload[0] ^= 1;
       EXPECT_FALSE(receiver.add(fragment, now));
     }
   }
-  EXPECT_EQ(abandoned, std::vector<NodeId>{kNode});
+  EXPECT_EQ(abandoned, std::vector<NodeId>{kCloudNode});
   EXPECT_EQ(receiver.stats().bad_hash, 3u);
   EXPECT_EQ(receiver.stats().abandoned, 2u);
 }
@@ -158,8 +156,8 @@ TEST(CloudTransfer, bounds_what_it_keeps_and_what_it_takes_on) {
     EXPECT_EQ(receiver.want({kPeer, seq}, kStart), seq < config.max_receiving);
   }
   CloudSender sender(kPeer, config);
-  EXPECT_FALSE(sender.offer(kNode, Bytes(config.max_cloud_bytes + 1, 0), kStart));
-  EXPECT_FALSE(sender.offer(kNode, Bytes{}, kStart));
+  EXPECT_FALSE(sender.offer(kCloudNode, Bytes(config.max_cloud_bytes + 1, 0), kStart));
+  EXPECT_FALSE(sender.offer(kCloudNode, Bytes{}, kStart));
   for (std::uint32_t seq = 0; seq < 20; ++seq) {
     ASSERT_TRUE(sender.offer({kPeer, seq}, Bytes(100, 0), kStart + std::chrono::seconds(seq)));
   }

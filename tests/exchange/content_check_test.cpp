@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -12,9 +13,6 @@ namespace {
 using testing::agent;
 using testing::make_node;
 using testing::random_bytes;
-
-const AgentId kMaker = agent("r3");
-const Stamp kStart = stamp_from_ns(1'000'000'000'000);
 
 /// One robot with 200 nodes of r3, and its part of the check.
 struct Robot {

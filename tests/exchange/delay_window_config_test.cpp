@@ -12,21 +12,21 @@ using fleetmap::testing::expect_refused;
 using fleetmap::testing::kInfinity;
 using fleetmap::testing::kNaN;
 
-using Config = DelayWindowConfig;
-
 TEST(DelayWindowConfig, TheTargetExceedsTheTicksOfBothEnds) {
-  expect_accepted(Config{}, &Config::target_s, {Config::kMinTarget, 10.0});
-  expect_refused(Config{}, &Config::target_s, {0.0, 0.049, kNaN<double>, kInfinity<double>}, "target_s");
+  expect_accepted(DelayWindowConfig{}, &DelayWindowConfig::target_s, {DelayWindowConfig::kMinTarget, 10.0});
+  expect_refused(DelayWindowConfig{}, &DelayWindowConfig::target_s,
+                 {0.0, 0.049, kNaN<double>, kInfinity<double>}, "target_s");
 }
 
 TEST(DelayWindowConfig, StepLeastFirstAndMostDoNotDecrease) {
-  Config equal;
+  DelayWindowConfig equal;
   equal.step_bytes = equal.min_bytes = equal.first_bytes = equal.max_bytes = 1000;
   EXPECT_TRUE(equal.validate());
-  expect_refused(equal, &Config::step_bytes, {0u, 1001u}, "step_bytes");
-  expect_refused(equal, &Config::min_bytes, {999u, 1001u}, "min_bytes");
-  expect_refused(equal, &Config::first_bytes, {999u, 1001u}, "first_bytes");
-  expect_refused(equal, &Config::max_bytes, {999u}, "short_range.window_bytes must be at least 1000");
+  expect_refused(equal, &DelayWindowConfig::step_bytes, {0u, 1001u}, "step_bytes");
+  expect_refused(equal, &DelayWindowConfig::min_bytes, {999u, 1001u}, "min_bytes");
+  expect_refused(equal, &DelayWindowConfig::first_bytes, {999u, 1001u}, "first_bytes");
+  expect_refused(equal, &DelayWindowConfig::max_bytes, {999u},
+                 "short_range.window_bytes must be at least 1000");
 }
 
 }  // namespace

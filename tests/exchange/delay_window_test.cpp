@@ -6,6 +6,8 @@
 #include <deque>
 #include <random>
 
+#include "exchange/submap_chunks.hpp"
+
 namespace fleetmap::exchange {
 namespace {
 
@@ -22,7 +24,6 @@ struct Bottleneck {
 
   void run(DelayWindow& window, double seconds) {
     BaseDelay base_delay;
-    constexpr std::uint32_t kChunk = 8192;
     struct Flight {
       double asked, arrives;
       bool lost;

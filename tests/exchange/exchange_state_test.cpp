@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "exchange/lone_exchange.hpp"
+#include "exchange/robots.hpp"
 
 namespace fleetmap::exchange {
 namespace {
@@ -11,10 +12,8 @@ using fleetmap::testing::make_node;
 using fleetmap::testing::random_bytes;
 using messages::Hold;
 using messages::ProximityMatch;
-using testing::kPeer, testing::kSelf, testing::kStart, testing::kStranger, testing::kThird;
-using testing::status_of;
 
-class ExchangeStateTest : public testing::LoneExchange {};
+class ExchangeStateTest : public LoneExchange {};
 
 TEST_F(ExchangeStateTest, AMessageForAnotherRobotProvesItsSenderAloneToBeThere) {
   ProximityMatch match;

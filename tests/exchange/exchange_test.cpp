@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "exchange/lone_exchange.hpp"
+#include "exchange/robots.hpp"
 
 namespace fleetmap::exchange {
 namespace {
@@ -10,10 +11,8 @@ namespace {
 using fleetmap::testing::make_node;
 using fleetmap::testing::random_bytes;
 using messages::Hold;
-using testing::kPeer, testing::kSelf, testing::kStart, testing::kStranger, testing::kThird;
-using testing::status_of;
 
-class ExchangeTest : public testing::LoneExchange {};
+class ExchangeTest : public LoneExchange {};
 
 TEST_F(ExchangeTest, RefusesAConfigurationWithoutThisRobot) {
   ExchangeConfig others = config();

@@ -13,9 +13,8 @@ namespace {
 
 using messages::Digest;
 using testing::agent;
+using testing::kThree;
 using testing::SimFleet;
-
-const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
 /// The most wire bytes that all agents together sent in any window beginning at a message.
 double worst_excess(const SimFleet& fleet, Duration window, double rate) {

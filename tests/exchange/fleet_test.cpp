@@ -12,9 +12,8 @@ using messages::CloudRequest;
 using messages::Digest;
 using messages::ItemRequest;
 using testing::agent;
+using testing::kThree;
 using testing::SimFleet;
-
-const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
 bool has_ended(const SimFleet& fleet, std::size_t nodes) {
   return fleet.equal_sets(nodes) && fleet.all([&](const auto& robot) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "exchange/robots.hpp"
 #include "exchange/sim_fleet.hpp"
 
 namespace fleetmap::exchange {
@@ -14,7 +15,6 @@ using namespace std::chrono_literals;
 using testing::agent;
 using testing::SimFleet;
 
-const Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
 const std::set<AgentId> kFleet{agent("r1"), agent("r2"), agent("r3")};
 
 HoldOrder order(const char* robot, bool hold, Duration at) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "exchange/robots.hpp"
 #include "exchange/sim_fleet.hpp"
 #include "fleetmap/exchange/hold_orders.hpp"
 #include "fleetmap/fleet_codec/bounds.hpp"
@@ -20,15 +21,13 @@ using ::testing::SizeIs;
 using Kind = HoldOrder::Kind;
 using Part = std::vector<HoldOrder>;
 
-const Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
-
 AgentId robot(int k) { return agent(("r" + std::to_string(k)).c_str()); }
-HoldOrder order(const AgentId& whom, Kind kind, Duration at) {
+HoldOrder order_to(const AgentId& whom, Kind kind, Duration at) {
   return {kStart + at, whom, agent("operator"), kind};
 }
 Part orders_for(int robots) {
-  Part orders{order({}, Kind::kHold, 1s)};
-  for (int k = 1; k <= robots; ++k) orders.push_back(order(robot(k), Kind::kHome, 1s));
+  Part orders{order_to({}, Kind::kHold, 1s)};
+  for (int k = 1; k <= robots; ++k) orders.push_back(order_to(robot(k), Kind::kHome, 1s));
   return orders;
 }
 
@@ -60,7 +59,7 @@ class FortyRobots : public ::testing::Test {
     std::set<AgentId> all;
     for (int k = 1; k <= 40; ++k) all.insert(robot(k));
     for (const AgentId& one : all) fleet_.emplace_back(one, HoldOrders(one, all));
-    for (const AgentId& one : all) hear({agent("operator"), {}, {order(one, Kind::kHome, 1s)}});
+    for (const AgentId& one : all) hear({agent("operator"), {}, {order_to(one, Kind::kHome, 1s)}});
   }
   void hear(const Hold& hold) {
     for (auto& [id, orders] : fleet_) {
@@ -87,7 +86,7 @@ class FortyRobots : public ::testing::Test {
 };
 
 TEST_F(FortyRobots, FallSilentWhenAllHaveAllOrders) {
-  hear({agent("operator"), {}, {order({}, Kind::kHold, 2s)}});
+  hear({agent("operator"), {}, {order_to({}, Kind::kHold, 2s)}});
   messages_in(1s);
   for (const auto& [id, orders] : fleet_) EXPECT_TRUE(orders.in_force()->kind == Kind::kHoldHome);
   EXPECT_EQ(messages_in(5s), 0u);

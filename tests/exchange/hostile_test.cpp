@@ -12,11 +12,10 @@ using messages::SubmapChunk;
 using messages::SubmapDigest;
 using testing::agent;
 using testing::events;
+using testing::kThree;
 using testing::make_alignment;
 using testing::make_node;
 using testing::SimFleet;
-
-const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
 /// Every robot has a node with this place and submap, under whatever name.
 bool all_have(const SimFleet& fleet, const graph::Node& node) {

@@ -5,18 +5,15 @@
 #include <chrono>
 
 #include "exchange/recorded_cloud_client.hpp"
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using fleetmap::testing::agent;
 using fleetmap::testing::make_alignment;
 using fleetmap::testing::make_node;
 using fleetmap::testing::random_bytes;
-
-const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kStranger = agent("x");
-const Stamp kStart = stamp_from_ns(1'000'000'000'000);
 
 class ItemExchangeTest : public ::testing::Test {
  protected:
@@ -35,7 +32,7 @@ class ItemExchangeTest : public ::testing::Test {
   ExchangeConfig config_ = config();
   fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
-  testing::RecordedCloudClient closer_;
+  RecordedCloudClient closer_;
   Membership members_{kSelf, config_.fleet};
   Outbox outbox_{kSelf, config_};
   std::vector<Event> events_;

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "exchange/robots.hpp"
 #include "fleetmap/fault_injection/simulated_signatures.hpp"
 #include "store/items.hpp"
 
@@ -12,11 +13,8 @@ namespace {
 
 using fault_injection::SimulatedSignatures;
 using store::Put;
-using testing::agent;
 using testing::make_alignment;
 using testing::make_node;
-
-const AgentId kSelf = agent("r1"), kPeer = agent("r2");
 
 /// A store that was filled before the fleet had keys.
 class AdoptedItemsTest : public ::testing::Test {

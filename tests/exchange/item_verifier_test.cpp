@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "exchange/robots.hpp"
 #include "fleetmap/fault_injection/simulated_signatures.hpp"
 #include "store/items.hpp"
 
@@ -11,8 +12,6 @@ namespace fleetmap::exchange {
 namespace {
 
 using testing::agent;
-
-const AgentId kMaker = agent("r1"), kSender = agent("r2");
 
 TEST(ItemVerifier, WithoutKeysItemsAreAcceptedAndKeepNoSignature) {
   ItemVerifier verifier(nullptr);
@@ -41,12 +40,12 @@ TEST(ItemVerifier, WithKeysEveryResultIsCounted) {
 
 TEST(ItemVerifier, EachRefusalIsNewOnceAndAtMost64Are) {
   ItemVerifier verifier(nullptr);
-  EXPECT_TRUE(verifier.is_new_refusal(kMaker, kSender, ItemProof::kWrong));
-  EXPECT_FALSE(verifier.is_new_refusal(kMaker, kSender, ItemProof::kWrong));
-  EXPECT_TRUE(verifier.is_new_refusal(kMaker, kSender, ItemProof::kUnsigned));
+  EXPECT_TRUE(verifier.is_new_refusal(kMaker, kPeer, ItemProof::kWrong));
+  EXPECT_FALSE(verifier.is_new_refusal(kMaker, kPeer, ItemProof::kWrong));
+  EXPECT_TRUE(verifier.is_new_refusal(kMaker, kPeer, ItemProof::kUnsigned));
   EXPECT_TRUE(verifier.is_new_refusal(kMaker, kMaker, ItemProof::kWrong));
   for (int k = 0; k < 100; ++k)
-    verifier.is_new_refusal(agent("x" + std::to_string(k)), kSender, ItemProof::kWrong);
+    verifier.is_new_refusal(agent("x" + std::to_string(k)), kPeer, ItemProof::kWrong);
   EXPECT_EQ(verifier.reported_refusals(), 64u);
 }
 

@@ -12,9 +12,8 @@ using messages::CloudRequest;
 using messages::Digest;
 using messages::Hold;
 using testing::agent;
+using testing::kThree;
 using testing::SimFleet;
-
-const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
 /// Messages of these kinds that went over `reach`.
 template <class... Kinds>

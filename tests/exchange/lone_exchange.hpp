@@ -7,14 +7,11 @@
 #include <vector>
 
 #include "exchange/recorded_cloud_client.hpp"
+#include "exchange/robots.hpp"
 #include "fleetmap/exchange/exchange.hpp"
-#include "store/items.hpp"
+#include "support/temporary_folder.hpp"
 
-namespace fleetmap::exchange::testing {
-
-inline const AgentId kSelf = fleetmap::testing::agent("r1"), kPeer = fleetmap::testing::agent("r2"),
-                     kThird = fleetmap::testing::agent("r3"), kStranger = fleetmap::testing::agent("x");
-inline constexpr Stamp kStart = stamp_from_ns(1'000'000'000'000);
+namespace fleetmap::exchange {
 
 inline AgentStatus status_of(const AgentId& robot, bool busy) {
   AgentStatus status;
@@ -53,10 +50,10 @@ class LoneExchange : public ::testing::Test {
     return found;
   }
 
-  fleetmap::testing::TemporaryFolder folder_;
+  testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
   RecordedCloudClient closer_;
   Exchange exchange_ = make();
 };
 
-}  // namespace fleetmap::exchange::testing
+}  // namespace fleetmap::exchange

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -11,11 +12,10 @@ namespace {
 
 using testing::agent;
 
-const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kStranger = agent("x");
-const std::vector<AgentId> kFleet{kSelf, kPeer};
+const std::vector<AgentId> kMembers{kSelf, kPeer};
 
 TEST(Membership, KeepsTheRangesOfMembersAndCountsTheOthers) {
-  Membership members(kSelf, kFleet);
+  Membership members(kSelf, kMembers);
   const std::vector<SeqRange> ranges{{kPeer, 0, 3}, {kStranger, 0, 9}, {kSelf, 2, 4}};
   const std::vector<SeqRange> expected{{kPeer, 0, 3}, {kSelf, 2, 4}};
   EXPECT_EQ(members.of_members(ranges), expected);
@@ -23,7 +23,7 @@ TEST(Membership, KeepsTheRangesOfMembersAndCountsTheOthers) {
 }
 
 TEST(Membership, ReportsEachStrangerOnceAndOwnEchoesNever) {
-  Membership members(kSelf, kFleet);
+  Membership members(kSelf, kMembers);
   EXPECT_TRUE(members.refuse_message(kStranger));
   EXPECT_FALSE(members.refuse_message(kStranger));
   EXPECT_FALSE(members.refuse_message(kSelf));
@@ -33,7 +33,7 @@ TEST(Membership, ReportsEachStrangerOnceAndOwnEchoesNever) {
 }
 
 TEST(Membership, ReportsAtMost64NamesThatAForgerInvents) {
-  Membership members(kSelf, kFleet);
+  Membership members(kSelf, kMembers);
   std::size_t reported = 0;
   for (int k = 0; k < 100; ++k) reported += members.refuse_message(agent("x" + std::to_string(k)));
   EXPECT_EQ(reported, 64u);

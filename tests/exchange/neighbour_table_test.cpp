@@ -4,16 +4,13 @@
 
 #include <chrono>
 
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using testing::agent;
-
-const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kMaker = agent("r3");
 const NodeId kNode{kMaker, 5};
-const Stamp kStart = stamp_from_ns(1'000'000'000'000);
 
 SubmapDigest digest(std::vector<SeqRange> submaps, std::vector<AgentId> hears) {
   return {kPeer, std::move(submaps), std::move(hears)};

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <map>
 
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -16,8 +17,7 @@ using messages::Hold;
 using messages::Reach;
 using testing::agent;
 
-const AgentId kSelf = agent("r1"), kNear = agent("r2"), kFar = agent("r3"), kElsewhere = agent("r4");
-const Stamp kStart = stamp_from_ns(1'000'000'000'000);
+const AgentId kNear = agent("r2"), kFar = agent("r3"), kElsewhere = agent("r4");
 
 /// r1, r2 and r3 share a radio, r4 is on another one.
 Outbox outbox() {

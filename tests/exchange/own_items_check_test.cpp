@@ -2,15 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using testing::agent;
 using testing::make_node;
 
-const AgentId kSelf = agent("r1"), kPeer = agent("r2");
 constexpr std::uint16_t kSession = 7;
 
 /// A store with two own nodes of the running session.

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "exchange/robots.hpp"
+
 namespace fleetmap::exchange {
 namespace {
-
-const Stamp kStart = stamp_from_ns(1'000'000'000);
 
 TEST(Pace, no_second_has_more_than_the_peak_whatever_the_rate_was) {
   for (std::uint32_t seed = 0; seed < 50; ++seed) {

@@ -4,6 +4,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "exchange/robots.hpp"
 #include "exchange/sim_fleet.hpp"
 #include "store/power_cut_disk.hpp"
 
@@ -18,7 +19,6 @@ using testing::PowerCutDisk;
 using testing::SimFleet;
 
 constexpr int kFleets = 30, kCutsOfAFleet = 10;
-const AgentId kSelf = agent("r1");
 
 void insert_all(store::SeqSet& set, const std::vector<SeqRange>& ranges) {
   for (const SeqRange& range : ranges) set.insert(range);

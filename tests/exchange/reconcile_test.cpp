@@ -4,16 +4,13 @@
 
 #include <chrono>
 
+#include "exchange/robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using testing::agent;
 using testing::make_node;
-
-const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kMaker = agent("r3");
-const Stamp kStart = stamp_from_ns(1'000'000'000'000);
 
 /// Two robots of which one holds `nodes` nodes of r3, none beside another, and whose digests show three
 /// ranges.

@@ -6,7 +6,7 @@
 
 #include "fleetmap/exchange/cloud_client.hpp"
 
-namespace fleetmap::exchange::testing {
+namespace fleetmap::exchange {
 
 /// A loop closer that records what the transport reports and demands what the test has set.
 class RecordedCloudClient final : public CloudClient {
@@ -39,4 +39,4 @@ class RecordedCloudClient final : public CloudClient {
   bool had_room = false;
 };
 
-}  // namespace fleetmap::exchange::testing
+}  // namespace fleetmap::exchange

@@ -11,9 +11,8 @@ namespace fleetmap::exchange {
 namespace {
 
 using testing::agent;
+using testing::kThree;
 using testing::SimFleet;
-
-const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
 /// Counts the reports to this robot that its store lacks what others have of it.
 int warnings_of_lost_items(const SimFleet::Robot& robot) {

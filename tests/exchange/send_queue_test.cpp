@@ -6,6 +6,7 @@
 #include <random>
 
 #include "cloud_transfer.hpp"
+#include "exchange/robots.hpp"
 #include "exchange/sim_fleet.hpp"
 
 namespace fleetmap::exchange {
@@ -16,11 +17,8 @@ using messages::Digest;
 using messages::Hold;
 using testing::agent;
 
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 const std::vector<AgentId> kOne = {kPeer};
 const std::vector<AgentId> kFour = {agent("r2"), agent("r3"), agent("r4"), agent("r5")};
-const Stamp kStart = stamp_from_ns(1'000'000'000);
 
 graph::Node node(std::uint32_t seq) { return testing::make_node(kSelf, seq, Bytes{}); }
 const std::size_t kNodeBytes = testing::payload_size(node(0));

@@ -13,11 +13,10 @@ namespace {
 using fault_injection::SimulatedSignatures;
 using testing::agent;
 using testing::events;
+using testing::kThree;
 using testing::make_alignment;
 using testing::make_node;
 using testing::SimFleet;
-
-const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
 std::uint64_t refused(const SimFleet::Robot& robot, ItemProof proof) {
   return robot.exchange->stats().proofs[static_cast<std::size_t>(proof)];

@@ -22,6 +22,9 @@ using messages::Message;
 /// Bytes of a message as agents publish it.
 std::size_t payload_size(const Message& message);
 
+/// Names of a fleet.
+inline const std::vector<std::string> kThree{"r1", "r2", "r3"};
+
 /// A fleet of exchanges on a network that loses, delays, reorders and doubles messages, in virtual time.
 class SimFleet : private TemporaryFolder, public fault_injection::ExchangeFleet {
  public:

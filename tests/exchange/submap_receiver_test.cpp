@@ -6,16 +6,13 @@
 #include <filesystem>
 #include <vector>
 
+#include "exchange/robots.hpp"
+#include "exchange/submap_chunks.hpp"
 #include "store/items.hpp"
 #include "support/full_disk.hpp"
 
 namespace fleetmap::exchange {
 namespace {
-
-using testing::agent;
-
-const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kOther = agent("r3");
-constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
 
 /// A robot that has a node of kPeer and lacks its submap of `bytes` bytes.
 class SubmapReceiverTest : public ::testing::Test {
@@ -59,7 +56,7 @@ TEST_F(SubmapReceiverTest, turns_from_a_peer_that_sends_wrong_content) {
   for (const auto& request : receiver.tick(store_, now_)) serve(request);
   EXPECT_EQ(receiver.stats().bad_hash, 1u);
   EXPECT_TRUE(receiver.tick(store_, now_).empty());  // not from this one again soon
-  offer(receiver, kOther);
+  offer(receiver, kThird);
   for (const auto& request : receiver.tick(store_, now_)) serve(request);
   EXPECT_EQ(store_.submap(id_).value(), submap_);
   EXPECT_TRUE(receiver.idle(store_, now_));
@@ -75,7 +72,7 @@ TEST_F(SubmapReceiverTest, one_damaged_chunk_does_not_bar_its_source_for_ever) {
 
   offer(receiver, kPeer);
   ASSERT_FALSE(receiver.tick(store_, now_).empty());
-  ASSERT_TRUE(receiver.on_chunk(chunk_of(kOther, 0), store_, now_)) << "of one who was not asked";
+  ASSERT_TRUE(receiver.on_chunk(chunk_of(kThird, 0), store_, now_)) << "of one who was not asked";
   EXPECT_EQ(receiver.stats().unasked, 2u);
   ASSERT_TRUE(receiver.on_chunk(damaged, store_, now_)) << "in the maker's name";
   for (const std::uint32_t offset : {kChunk, 2 * kChunk})
@@ -99,19 +96,19 @@ TEST_F(SubmapReceiverTest, a_stuck_download_leaves_its_peer_for_another) {
        now_ += std::chrono::milliseconds(100)) {
     // Both are there all the time; the first sends digests and no chunk.
     offer(receiver, kPeer);
-    if (now_ - begun >= std::chrono::seconds(1)) offer(receiver, kOther);
+    if (now_ - begun >= std::chrono::seconds(1)) offer(receiver, kThird);
     for (const SubmapRequest& request : receiver.tick(store_, now_)) {
       first_asked.try_emplace(request.to, now_);
       if (request.to == kPeer) {
-        asked_of_stuck_later += first_asked.contains(kOther) ? 1 : 0;
+        asked_of_stuck_later += first_asked.contains(kThird) ? 1 : 0;
         continue;
       }
       for (const SubmapChunk& chunk : chunks_of(request)) ASSERT_TRUE(receiver.on_chunk(chunk, store_, now_));
     }
   }
   ASSERT_TRUE(first_asked.contains(kPeer));
-  ASSERT_TRUE(first_asked.contains(kOther)) << "it stays with the one that sends nothing";
-  EXPECT_LE(first_asked[kOther] - first_asked[kPeer], std::chrono::seconds(10));
+  ASSERT_TRUE(first_asked.contains(kThird)) << "it stays with the one that sends nothing";
+  EXPECT_LE(first_asked[kThird] - first_asked[kPeer], std::chrono::seconds(10));
   EXPECT_EQ(asked_of_stuck_later, 0);
   EXPECT_EQ(store_.submap(id_).value(), submap_);
 }

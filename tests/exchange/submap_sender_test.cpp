@@ -5,18 +5,16 @@
 
 #include <algorithm>
 
+#include "exchange/robots.hpp"
+#include "exchange/submap_chunks.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using testing::agent;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
-const AgentId kSelf = agent("r1"), kSecond = agent("r2"), kThird = agent("r3");
 
 Stamp at(double seconds) { return stamp_from_ns(1'000'000'000) + from_seconds(seconds); }
 
@@ -42,11 +40,11 @@ class SubmapSenderTest : public ::testing::Test {
 
 TEST_F(SubmapSenderTest, TheDigestTellsWhatIsHeldAndWhoIsHeardOncePerPeriod) {
   SubmapSender sender(kSelf, config_);
-  const auto first = sender.digest(store_, {kSecond}, at(0.0));
+  const auto first = sender.digest(store_, {kPeer}, at(0.0));
   ASSERT_TRUE(first);
   EXPECT_EQ(first->from, kSelf);
   EXPECT_THAT(first->submaps, ElementsAre(SeqRange{kSelf, 0, 2}));
-  EXPECT_THAT(first->hears, ElementsAre(kSecond));
+  EXPECT_THAT(first->hears, ElementsAre(kPeer));
   EXPECT_FALSE(sender.digest(store_, {}, at(0.99)));
   EXPECT_TRUE(sender.digest(store_, {}, at(1.0)));
   EXPECT_FALSE(sender.digest(store_, {}, at(1.5)));
@@ -58,8 +56,8 @@ TEST_F(SubmapSenderTest, TheDigestTellsWhatIsHeldAndWhoIsHeardOncePerPeriod) {
 TEST_F(SubmapSenderTest, DigestsWithLittleRoomGoRound) {
   config_.max_ranges = 2;
   for (const std::uint32_t seq : {10u, 20u, 30u}) {
-    EXPECT_TRUE(store_.put_node(testing::make_node(kSecond, seq, submaps_[0])));
-    EXPECT_TRUE(store_.put_submap({kSecond, seq}, submaps_[0]));
+    EXPECT_TRUE(store_.put_node(testing::make_node(kPeer, seq, submaps_[0])));
+    EXPECT_TRUE(store_.put_submap({kPeer, seq}, submaps_[0]));
   }
   SubmapSender sender(kSelf, config_);
   store::SeqSet told;
@@ -74,14 +72,14 @@ TEST_F(SubmapSenderTest, DigestsWithLittleRoomGoRound) {
 
 TEST_F(SubmapSenderTest, SendsTheChunksThatWereAskedFor) {
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 1, kChunk, 1'000'000), store_);
+  sender.on_request(request(kPeer, 1, kChunk, 1'000'000), store_);
   EXPECT_FALSE(sender.idle());
   const auto chunks = sender.tick(store_, at(0.0));
   ASSERT_THAT(chunks, SizeIs(2));
   for (std::size_t k = 0; k < 2; ++k) {
     const auto offset = static_cast<std::uint32_t>(k + 1) * kChunk;
     EXPECT_EQ(chunks[k].from, kSelf);
-    EXPECT_EQ(chunks[k].to, kSecond);
+    EXPECT_EQ(chunks[k].to, kPeer);
     EXPECT_EQ(chunks[k].node, (NodeId{kSelf, 1}));
     EXPECT_EQ(chunks[k].offset, offset);
     EXPECT_EQ(chunks[k].total_bytes, submaps_[1].size());
@@ -95,29 +93,28 @@ TEST_F(SubmapSenderTest, SendsTheChunksThatWereAskedFor) {
 
 TEST_F(SubmapSenderTest, APartOfAChunkIsTheWholeChunkAndNoneIsQueuedTwice) {
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 0, 0, 1), store_);
-  sender.on_request(request(kSecond, 0, 0, kChunk + 1), store_);
+  sender.on_request(request(kPeer, 0, 0, 1), store_);
+  sender.on_request(request(kPeer, 0, 0, kChunk + 1), store_);
   const auto chunks = sender.tick(store_, at(0.0));
   ASSERT_THAT(chunks, SizeIs(2));
   EXPECT_EQ(chunks[0].offset, 0u);
   EXPECT_EQ(chunks[0].payload.size(), kChunk);
   EXPECT_EQ(chunks[1].offset, kChunk);
-  sender.on_request(request(kSecond, 0, 0, 1), store_);
+  sender.on_request(request(kPeer, 0, 0, 1), store_);
   EXPECT_THAT(sender.tick(store_, at(1.0)), SizeIs(1)) << "it was lost on the way";
 }
 
 TEST_F(SubmapSenderTest, RefusesAndCountsWhatIsNotHeldOrDoesNotExist) {
   SubmapSender sender(kSelf, config_);
-  EXPECT_TRUE(store_.put_node(testing::make_node(kSecond, 5, submaps_[0])));  // without its submap
+  EXPECT_TRUE(store_.put_node(testing::make_node(kPeer, 5, submaps_[0])));  // without its submap
   for (const SubmapRequest& bad :
-       {SubmapRequest{kSecond, kSelf, {kSecond, 5}, 0, 10},
-        SubmapRequest{kSecond, kSelf, {kSecond, 6}, 0, 10}, request(kSecond, 0, 1, 10),
-        request(kSecond, 0, 0, 0), request(kSecond, 0, 3 * kChunk, 10),
-        request(kSecond, 0, 0xffffe000, 0xffffffff)})
+       {SubmapRequest{kPeer, kSelf, {kPeer, 5}, 0, 10}, SubmapRequest{kPeer, kSelf, {kPeer, 6}, 0, 10},
+        request(kPeer, 0, 1, 10), request(kPeer, 0, 0, 0), request(kPeer, 0, 3 * kChunk, 10),
+        request(kPeer, 0, 0xffffe000, 0xffffffff)})
     sender.on_request(bad, store_);
   EXPECT_EQ(sender.stats().requests, 6u);
   EXPECT_EQ(sender.stats().refused, 6u);
-  sender.on_request({kSecond, kThird, {kSelf, 0}, 0, 10}, store_);
+  sender.on_request({kPeer, kThird, {kSelf, 0}, 0, 10}, store_);
   EXPECT_EQ(sender.stats().requests, 6u) << "of another robot";
   EXPECT_TRUE(sender.idle());
   EXPECT_THAT(sender.tick(store_, at(0.0)), IsEmpty());
@@ -125,14 +122,13 @@ TEST_F(SubmapSenderTest, RefusesAndCountsWhatIsNotHeldOrDoesNotExist) {
 
 TEST_F(SubmapSenderTest, PeersAreServedInTurns) {
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 0, 0, 1'000'000), store_);
-  sender.on_request(request(kSecond, 1, 0, 1'000'000), store_);
+  sender.on_request(request(kPeer, 0, 0, 1'000'000), store_);
+  sender.on_request(request(kPeer, 1, 0, 1'000'000), store_);
   sender.on_request(request(kThird, 1, 0, 1'000'000), store_);
   EXPECT_EQ(sender.peers(), 2u);
   std::vector<AgentId> order;
   for (const SubmapChunk& chunk : sender.tick(store_, at(0.0))) order.push_back(chunk.to);
-  EXPECT_THAT(order,
-              ElementsAre(kSecond, kThird, kSecond, kThird, kSecond, kThird, kSecond, kSecond, kSecond));
+  EXPECT_THAT(order, ElementsAre(kPeer, kThird, kPeer, kThird, kPeer, kThird, kPeer, kPeer, kPeer));
 }
 
 TEST_F(SubmapSenderTest, TheRateOfTheLinkIsKeptWithOverheads) {
@@ -140,7 +136,7 @@ TEST_F(SubmapSenderTest, TheRateOfTheLinkIsKeptWithOverheads) {
   config_.overhead_bytes = 10'000 - kChunk;  // a chunk a second
   config_.burst_bytes = 10'000.0;
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 0, 0, 2 * kChunk), store_);
+  sender.on_request(request(kPeer, 0, 0, 2 * kChunk), store_);
   sender.on_request(request(kThird, 1, 0, 2 * kChunk), store_);
   EXPECT_THAT(sender.tick(store_, at(0.0)), SizeIs(1));
   EXPECT_THAT(sender.tick(store_, at(0.99)), IsEmpty());
@@ -157,11 +153,11 @@ TEST_F(SubmapSenderTest, AChunkThatWasSentMayBeAskedForAgainWhileOthersWait) {
   config_.bytes_per_second = config_.burst_bytes = 10'000.0;
   config_.overhead_bytes = 10'000 - kChunk;
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 0, 0, 2 * kChunk), store_);
+  sender.on_request(request(kPeer, 0, 0, 2 * kChunk), store_);
   std::vector<std::uint32_t> offsets;
   for (int second = 0; second < 3; ++second) {
     for (const SubmapChunk& chunk : sender.tick(store_, at(second))) offsets.push_back(chunk.offset);
-    if (second == 0) sender.on_request(request(kSecond, 0, 0, 1), store_);
+    if (second == 0) sender.on_request(request(kPeer, 0, 0, 1), store_);
   }
   EXPECT_THAT(offsets, ElementsAre(0u, kChunk, 0u));
 }
@@ -169,8 +165,8 @@ TEST_F(SubmapSenderTest, AChunkThatWasSentMayBeAskedForAgainWhileOthersWait) {
 TEST_F(SubmapSenderTest, AFullQueueDropsWhatIsAskedForBeyondIt) {
   config_.max_queued_chunks = 4;
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 0, 0, 1'000'000), store_);
-  sender.on_request(request(kSecond, 1, 0, 1'000'000), store_);
+  sender.on_request(request(kPeer, 0, 0, 1'000'000), store_);
+  sender.on_request(request(kPeer, 1, 0, 1'000'000), store_);
   EXPECT_EQ(sender.stats().dropped, 2u);
   sender.on_request(request(kThird, 1, 0, 1), store_);
   EXPECT_EQ(sender.stats().dropped, 2u) << "another peer's";
@@ -179,8 +175,8 @@ TEST_F(SubmapSenderTest, AFullQueueDropsWhatIsAskedForBeyondIt) {
 
 TEST_F(SubmapSenderTest, ANodeWhoseNameBecameContestedIsLeftOut) {
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 0, 0, 1), store_);
-  sender.on_request(request(kSecond, 1, 0, 1), store_);
+  sender.on_request(request(kPeer, 0, 0, 1), store_);
+  sender.on_request(request(kPeer, 1, 0, 1), store_);
   ASSERT_EQ(store_.put_node(testing::make_node(kSelf, 0, submaps_[0], 30.0)).value(), store::Put::kConflict);
   const auto chunks = sender.tick(store_, at(0.0));
   ASSERT_THAT(chunks, SizeIs(1));
@@ -191,7 +187,7 @@ TEST_F(SubmapSenderTest, ANodeWhoseNameBecameContestedIsLeftOut) {
 
 TEST_F(SubmapSenderTest, ARequestBeyondTheEndIsAnsweredToTheEnd) {
   SubmapSender sender(kSelf, config_);
-  sender.on_request(request(kSecond, 0, kChunk, UINT32_MAX), store_);
+  sender.on_request(request(kPeer, 0, kChunk, UINT32_MAX), store_);
   const auto chunks = sender.tick(store_, at(0.0));
   ASSERT_THAT(chunks, SizeIs(2));
   EXPECT_THAT(chunks[1].payload, SizeIs(100));

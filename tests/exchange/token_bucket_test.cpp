@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "exchange/robots.hpp"
+
 namespace fleetmap::exchange {
 namespace {
-
-const Stamp kStart = stamp_from_ns(1'000'000'000);
 
 TEST(TokenBucket, never_lets_out_more_than_rate_times_window_plus_burst) {
   for (std::uint32_t seed = 0; seed < 50; ++seed) {

@@ -3,13 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::experiment {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using fleetmap::testing::kNaN;
 
 /// Two studies: over numbers of robots and teams, and over teams alone.
 config::ExperimentConfig two_studies() {
@@ -52,7 +53,7 @@ Outcome outcome() {
                  record("team", {"a, \"b\""}, 1)};
   all.records[0].result = CaseResult{{{"m", 0.125}, {"only, here", 1e-7}}, {}, {}};
   all.records[1].reason = "no rows";
-  all.records[2].result = CaseResult{{{"m", kNan}}, {}, {}};
+  all.records[2].result = CaseResult{{{"m", kNaN<double>}}, {}, {}};
   return all;
 }
 
@@ -106,7 +107,7 @@ TEST(ResultsFile, OfAShapeWhatIsNotANumberIsNull) {
   check.x = {2.0, 3.0};
   check.means = {0.5, 0.25};
   check.change = -0.25;
-  check.p = kNan;
+  check.p = kNaN<double>;
   check.detail = "falls";
   const nlohmann::json json = results_json({}, {}, {check});
   ASSERT_EQ(json["shapes"].size(), 1u);

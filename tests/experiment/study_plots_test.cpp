@@ -27,7 +27,7 @@ config::ExperimentConfig study_over(const std::string& axis, const std::vector<s
   return config;
 }
 
-CaseRecord record(const std::string& at, std::map<std::string, double> metrics) {
+CaseRecord record_at(const std::string& at, std::map<std::string, double> metrics) {
   CaseRecord made;
   made.of.study = "study one";
   made.of.point = {at};
@@ -40,7 +40,7 @@ TEST(StudyPlots, EachMetricHasAPlotUnlessItIsDrawnWithAnother) {
   const auto config = study_over("rate", {"5", "10"});
   const auto plots =
       study_plots(config, config.studies[0],
-                  {record("5", {{"m", 0.5}, {"n", 7.0}, {"o", 0.25}}), record("10", {{"m", 0.4}})});
+                  {record_at("5", {{"m", 0.5}, {"n", 7.0}, {"o", 0.25}}), record_at("10", {{"m", 0.4}})});
   ASSERT_THAT(plots, SizeIs(2));
   EXPECT_EQ(plots[0].name, "study_one_m");
   EXPECT_EQ(plots[1].name, "study_one_n");
@@ -53,17 +53,17 @@ TEST(StudyPlots, EachMetricHasAPlotUnlessItIsDrawnWithAnother) {
 TEST(StudyPlots, ACompanionWhosePlotTheStudyLacksHasItsOwn) {
   auto config = study_over("rate", {"5", "10"});
   config.studies[0].metrics = {"o"};
-  const auto plots = study_plots(config, config.studies[0], {record("5", {{"o", 0.25}})});
+  const auto plots = study_plots(config, config.studies[0], {record_at("5", {{"o", 0.25}})});
   ASSERT_THAT(plots, SizeIs(1));
   EXPECT_EQ(plots[0].name, "study_one_o");
 }
 
 TEST(StudyPlots, NamesAreBarsAndNumbersLines) {
   const auto named = study_over("method", {"paper", "graph"}), numbers = study_over("rate", {"1e1", "-5"});
-  const auto bars =
-      study_plots(named, named.studies[0], {record("paper", {{"m", 0.5}}), record("graph", {{"m", 0.25}})});
-  const auto lines =
-      study_plots(numbers, numbers.studies[0], {record("1e1", {{"m", 0.5}}), record("-5", {{"m", 0.25}})});
+  const auto bars = study_plots(named, named.studies[0],
+                                {record_at("paper", {{"m", 0.5}}), record_at("graph", {{"m", 0.25}})});
+  const auto lines = study_plots(numbers, numbers.studies[0],
+                                 {record_at("1e1", {{"m", 0.5}}), record_at("-5", {{"m", 0.25}})});
   EXPECT_THAT(bars[0].svg, HasSubstr("graph"));
   EXPECT_THAT(bars[0].svg, Not(HasSubstr("<path")));
   EXPECT_NE(bars[0].svg, lines[0].svg);
@@ -72,7 +72,7 @@ TEST(StudyPlots, NamesAreBarsAndNumbersLines) {
 TEST(StudyPlots, WithoutAnAxisThereIsNothingToDrawAlong) {
   auto config = study_over("rate", {"5"});
   config.studies[0].axes.clear();
-  CaseRecord only = record("5", {{"m", 0.5}});
+  CaseRecord only = record_at("5", {{"m", 0.5}});
   only.of.point.clear();
   EXPECT_THAT(study_plots(config, config.studies[0], {only}), SizeIs(0));
 }
@@ -81,7 +81,7 @@ TEST(StudyPlots, HistogramsWithOtherBinsAreAnotherPlot) {
   auto config = study_over("rate", {"5", "10", "20"});
   config.studies[0].metrics.clear();
   config.studies[0].histograms = {"error"};
-  CaseRecord fine = record("5", {}), coarse = record("10", {}), alike = record("20", {});
+  CaseRecord fine = record_at("5", {}), coarse = record_at("10", {}), alike = record_at("20", {});
   fine.result->histograms["error"] = {0.1, {0.5, 0.5}};
   coarse.result->histograms["error"] = {0.2, {1.0}};
   alike.result->histograms["error"] = {0.1, {0.25, 0.75}};

@@ -23,7 +23,8 @@ config::ExperimentConfig rates() {
   return config;
 }
 
-CaseRecord record(const std::string& rate, std::uint64_t seed, const std::map<std::string, double>& metrics) {
+CaseRecord record_of_rate(const std::string& rate, std::uint64_t seed,
+                          const std::map<std::string, double>& metrics) {
   CaseRecord made;
   made.of.study = "rate";
   made.of.point = {rate};
@@ -34,9 +35,10 @@ CaseRecord record(const std::string& rate, std::uint64_t seed, const std::map<st
 
 TEST(StudyTable, HasMeanAndSpreadOfEachPoint) {
   const config::ExperimentConfig config = rates();
-  std::vector<CaseRecord> records{record("5", 1, {{"m", 0.25}, {"n", 7.0}}), record("5", 2, {{"m", 0.75}}),
-                                  record("10", 1, {{"m", 0.5}})};
-  CaseRecord failed = record("10", 2, {});
+  std::vector<CaseRecord> records{record_of_rate("5", 1, {{"m", 0.25}, {"n", 7.0}}),
+                                  record_of_rate("5", 2, {{"m", 0.75}}),
+                                  record_of_rate("10", 1, {{"m", 0.5}})};
+  CaseRecord failed = record_of_rate("10", 2, {});
   failed.result.reset();
   records.push_back(failed);
   const auto table = study_table(config, config.studies[0], records);
@@ -52,7 +54,8 @@ TEST(StudyTable, MagnitudesHaveTheirGeometricMean) {
   config::ExperimentConfig config = rates();
   config.metrics[0].log_scale = true;
   const auto table =
-      study_table(config, config.studies[0], {record("5", 1, {{"m", 1.0}}), record("5", 2, {{"m", 100.0}})});
+      study_table(config, config.studies[0],
+                  {record_of_rate("5", 1, {{"m", 1.0}}), record_of_rate("5", 2, {{"m", 100.0}})});
   EXPECT_EQ(table[2][1], "10 [1, 100]");
 }
 
@@ -69,7 +72,7 @@ TEST(StudyTable, InMarkdownEveryRowHasAsManyCells) {
   config::ExperimentConfig config = rates();
   config.studies[0].metrics = {"n"};
   config.metrics[1].title = "a|b";
-  EXPECT_EQ(markdown_tables(config, {record("5", 1, {{"n", 3.0}})}),
+  EXPECT_EQ(markdown_tables(config, {record_of_rate("5", 1, {{"n", 3.0}})}),
             "# Rates\n\nMean [least, greatest] over the seeds.\n"
             "\n## The | rate (`rate`)\n\n"
             "|  | rate=5 Hz | rate=10 Hz |\n| --- | --- | --- |\n"

@@ -4,17 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::experiment {
 namespace {
 
+using fleetmap::testing::kNaN;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::NanSensitiveDoubleEq;
 using ::testing::SizeIs;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Over rates of 5 and 10 Hz, and two teams; seeds 1 and 3.
 config::Study two_axes() {
@@ -31,8 +31,8 @@ config::Study two_axes() {
   return study;
 }
 
-CaseRecord record(const std::vector<std::string>& point, std::uint64_t seed, std::optional<double> m,
-                  const std::string& study = "s") {
+CaseRecord record_of_point(const std::vector<std::string>& point, std::uint64_t seed, std::optional<double> m,
+                           const std::string& study = "s") {
   CaseRecord made;
   made.of.study = study;
   made.of.point = point;
@@ -43,7 +43,7 @@ CaseRecord record(const std::vector<std::string>& point, std::uint64_t seed, std
 }
 
 CaseRecord failed(const std::vector<std::string>& point, std::uint64_t seed) {
-  CaseRecord made = record(point, seed, {});
+  CaseRecord made = record_of_point(point, seed, {});
   made.result.reset();
   return made;
 }
@@ -65,21 +65,22 @@ TEST(StudyValues, SlicesAreTheValuesOfAllOtherAxes) {
 }
 
 TEST(StudyValues, AreBySeedAndMissingOnesAreNan) {
-  const std::vector<CaseRecord> records{record({"10", "rich"}, 3, 4.0),        record({"5", "rich"}, 3, 2.0),
-                                        record({"5", "rich"}, 1, 1.0),         record({"10", "rich"}, 1, {}),
-                                        record({"5", "plain"}, 1, 9.0),        failed({"5", "rich"}, 2),
-                                        record({"5", "rich"}, 1, 7.0, "other")};
+  const std::vector<CaseRecord> records{
+      record_of_point({"10", "rich"}, 3, 4.0),        record_of_point({"5", "rich"}, 3, 2.0),
+      record_of_point({"5", "rich"}, 1, 1.0),         record_of_point({"10", "rich"}, 1, {}),
+      record_of_point({"5", "plain"}, 1, 9.0),        failed({"5", "rich"}, 2),
+      record_of_point({"5", "rich"}, 1, 7.0, "other")};
   const SliceValues values = values_along(two_axes(), records, 0, slices(two_axes(), 0)[1], "m");
   EXPECT_THAT(values.x, ElementsAre(5.0, 10.0));
   EXPECT_THAT(values.labels, ElementsAre("5", "10"));
   ASSERT_THAT(values.values, SizeIs(2));
   EXPECT_THAT(values.values[0], ElementsAre(1.0, 2.0));
-  EXPECT_THAT(values.values[1], ElementsAre(NanSensitiveDoubleEq(kNan), 4.0));
+  EXPECT_THAT(values.values[1], ElementsAre(NanSensitiveDoubleEq(kNaN<double>), 4.0));
 }
 
 TEST(StudyValues, RecordsOfAPointAreInTheOrderOfItsSeeds) {
-  const std::vector<CaseRecord> records{record({"5", "rich"}, 3, 2.0), failed({"5", "rich"}, 1),
-                                        record({"10", "rich"}, 1, 5.0)};
+  const std::vector<CaseRecord> records{record_of_point({"5", "rich"}, 3, 2.0), failed({"5", "rich"}, 1),
+                                        record_of_point({"10", "rich"}, 1, 5.0)};
   const auto found = records_at(two_axes(), records, {"5", "rich"});
   ASSERT_THAT(found, SizeIs(2));
   EXPECT_EQ(found[0]->of.seed, 1u);
@@ -91,7 +92,7 @@ TEST(StudyValues, RecordsOfAPointAreInTheOrderOfItsSeeds) {
 }
 
 TEST(StudyValues, TheSpreadIsOfFiniteValues) {
-  const Spread some = spread({3.0, kNan, 1.0, HUGE_VAL, 8.0}, false);
+  const Spread some = spread({3.0, kNaN<double>, 1.0, HUGE_VAL, 8.0}, false);
   EXPECT_EQ(some.count, 3u);
   EXPECT_EQ(some.min, 1.0);
   EXPECT_EQ(some.max, 8.0);
@@ -117,10 +118,11 @@ TEST(StudyValues, AMetricThatNoFinishedCaseGaveIsNamedOnce) {
   config.studies.push_back(two_axes());
   config.studies[0].metrics = {"m", "gone"};
   config.studies[0].expectations = {{.metric = "gone", .over = "rate"}, {.metric = "also", .over = "rate"}};
-  EXPECT_THAT(absent_metrics(config, {record({"5", "rich"}, 1, 1.0), record({"5", "rich"}, 3, {})}),
-              ElementsAre("s: no case gave the metric gone", "s: no case gave the metric also"));
+  EXPECT_THAT(
+      absent_metrics(config, {record_of_point({"5", "rich"}, 1, 1.0), record_of_point({"5", "rich"}, 3, {})}),
+      ElementsAre("s: no case gave the metric gone", "s: no case gave the metric also"));
   EXPECT_THAT(absent_metrics(config, {failed({"5", "rich"}, 1)}), IsEmpty());
-  EXPECT_THAT(absent_metrics(config, {record({}, 1, {}, "other")}), IsEmpty());
+  EXPECT_THAT(absent_metrics(config, {record_of_point({}, 1, {}, "other")}), IsEmpty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "fault_injection/three_robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::fault_injection {
@@ -11,8 +12,6 @@ namespace {
 
 using fleetmap::testing::agent;
 using fleetmap::testing::make_node;
-
-const std::vector<AgentId> kFleet{agent("r1"), agent("r2"), agent("r3")};
 
 /// An attacker that has overheard nodes of session 7, one with a submap of several chunks.
 Attacker listening() {

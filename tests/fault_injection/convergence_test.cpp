@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fault_injection/three_robots.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "store/items.hpp"
 #include "synthetic_survey.hpp"
@@ -14,8 +15,6 @@ using fleetmap::testing::agent;
 using fleetmap::testing::TemporaryFolder;
 using std::chrono::seconds;
 using ::testing::IsEmpty;
-
-const Stamp kNow = stamp_from_ns(1'700'000'000'000'000'000);
 
 /// Robots with stores and exchanges that never met.
 class Convergence : public ::testing::Test {

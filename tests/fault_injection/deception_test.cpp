@@ -10,7 +10,7 @@ namespace {
 
 using fleetmap::testing::agent;
 
-exchange::ExchangeConfig config() {
+exchange::ExchangeConfig exchange_config() {
   exchange::ExchangeConfig config;
   config.fleet = {agent("r1"), agent("r2"), agent("r3")};
   config.authenticator = std::make_shared<SimulatedSignatures>(42);
@@ -18,7 +18,7 @@ exchange::ExchangeConfig config() {
 }
 
 TEST(Deception, RequestsEverythingAndClaimsWhatNobodyHolds) {
-  const auto fleet = config();
+  const auto fleet = exchange_config();
   const fleetmap::testing::TemporaryFolder folder;
   auto store = store::Store::open(folder / "r3.db", agent("r3"), {}).value();
   SyntheticSurvey survey(1, 3);

@@ -9,7 +9,7 @@
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr int kMany = 40'000;
+constexpr int kDraws = 40'000;
 
 TEST(Draws, AreThoseOfSplitMix64OnEveryMachine) {
   Draws draws(1, 2), zero(0, 0);
@@ -22,20 +22,20 @@ TEST(Draws, AreThoseOfSplitMix64OnEveryMachine) {
 TEST(Draws, StreamsOfOneSeedHaveNothingInCommon) {
   Draws a(7, 1), b(7, 2);
   double product = 0.0;
-  for (int k = 0; k < kMany; ++k) product += (a.uniform() - 0.5) * (b.uniform() - 0.5) / kMany;
-  EXPECT_NEAR(product, 0.0, 4.0 / 12.0 / std::sqrt(kMany));
+  for (int k = 0; k < kDraws; ++k) product += (a.uniform() - 0.5) * (b.uniform() - 0.5) / kDraws;
+  EXPECT_NEAR(product, 0.0, 4.0 / 12.0 / std::sqrt(kDraws));
 }
 
 TEST(Draws, AreEvenWithinTheirBounds) {
   Draws draws(3, 0);
   std::array<int, 10> tenths{};
-  for (int k = 0; k < kMany; ++k) {
+  for (int k = 0; k < kDraws; ++k) {
     const double value = draws.between(-1.0, 4.0);
     ASSERT_GE(value, -1.0);
     ASSERT_LT(value, 4.0);
     ++tenths.at(static_cast<std::size_t>(2.0 * (value + 1.0)));
   }
-  for (const int count : tenths) EXPECT_NEAR(count, kMany / 10, 240);  // 4 sigma
+  for (const int count : tenths) EXPECT_NEAR(count, kDraws / 10, 240);  // 4 sigma
 }
 
 TEST(Draws, BelowANumberReachAllThatAreLessAndNoneForZero) {
@@ -50,27 +50,27 @@ TEST(Draws, BelowANumberReachAllThatAreLessAndNoneForZero) {
 TEST(Draws, AChanceIsTheShareOfCasesInWhichItIsTrue) {
   Draws draws(5, 0);
   int hits = 0;
-  for (int k = 0; k < kMany; ++k) {
+  for (int k = 0; k < kDraws; ++k) {
     EXPECT_FALSE(draws.chance(0.0));
     EXPECT_TRUE(draws.chance(1.0));
     hits += draws.chance(0.2);
   }
-  EXPECT_NEAR(hits, 0.2 * kMany, 320);
+  EXPECT_NEAR(hits, 0.2 * kDraws, 320);
 }
 
 TEST(Draws, NormalOnesHaveSigmaOneAndTheTailsOfTheirLaw) {
   Draws draws(6, 0);
   double sum = 0.0, squares = 0.0;
   int beyond_two = 0;
-  for (int k = 0; k < kMany; ++k) {
+  for (int k = 0; k < kDraws; ++k) {
     const double value = draws.normal();
-    sum += value / kMany;
-    squares += value * value / kMany;
+    sum += value / kDraws;
+    squares += value * value / kDraws;
     beyond_two += std::abs(value) > 2.0;
   }
   EXPECT_NEAR(sum, 0.0, 0.02);
   EXPECT_NEAR(squares, 1.0, 0.03);
-  EXPECT_NEAR(static_cast<double>(beyond_two) / kMany, 0.0455, 0.0042);
+  EXPECT_NEAR(static_cast<double>(beyond_two) / kDraws, 0.0455, 0.0042);
 }
 
 }  // namespace

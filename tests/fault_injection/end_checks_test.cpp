@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fault_injection/three_robots.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "store/items.hpp"
 #include "synthetic_survey.hpp"
@@ -13,8 +14,6 @@ namespace {
 using fleetmap::testing::agent;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
-
-const Stamp kNow = stamp_from_ns(1'700'000'000'000'000'000);
 
 /// One robot that holds what three made, each a fleet of its own, so that it misses nobody.
 class EndChecks : public ::testing::Test {

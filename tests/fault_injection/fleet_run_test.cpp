@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "fault_injection/checked_runs.hpp"
+
 namespace fleetmap::fault_injection {
 namespace {
 
@@ -12,12 +14,6 @@ ScenarioConfig small_fleets(const char* faults) {
   config.max_robots = 5;
   config.mapping = std::chrono::seconds(80);
   config.kinds = parse_fault_kinds(faults).value();
-  return config;
-}
-
-RunConfig checking(const char* invariants) {
-  RunConfig config;
-  config.invariants = parse_invariants(invariants).value();
   return config;
 }
 

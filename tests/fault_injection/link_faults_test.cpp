@@ -21,7 +21,7 @@ using ::testing::SizeIs;
 constexpr int kMany = 20'000;
 constexpr Reach kRadio = Reach::kLongRange, kWifi = Reach::kShortRange;
 
-Fault fault(FaultKind kind, std::vector<std::size_t> robots, double value = 0.0) {
+Fault fault_among(FaultKind kind, std::vector<std::size_t> robots, double value = 0.0) {
   Fault fault;
   fault.kind = kind;
   fault.robots = std::move(robots);
@@ -52,7 +52,7 @@ TEST(LinkFaults, WithoutAFaultEachPacketArrivesOnceAndSoon) {
 
 TEST(LinkFaults, LossTakesItsShareFromThoseWhomItConcerns) {
   LinkFaults faults(2);
-  const Fault loss = fault(FaultKind::kLoss, {1}, 0.3);
+  const Fault loss = fault_among(FaultKind::kLoss, {1}, 0.3);
   faults.begin(loss);
   EXPECT_NEAR(copies(faults, 1, 0)[0], 0.3 * kMany, 260) << "from it";
   EXPECT_NEAR(copies(faults, 0, 1)[0], 0.3 * kMany, 260) << "to it";
@@ -63,7 +63,7 @@ TEST(LinkFaults, LossTakesItsShareFromThoseWhomItConcerns) {
 
 TEST(LinkFaults, WithoutRobotsAllAreConcernedOnTheLinksThatAreNamed) {
   LinkFaults faults(3);
-  Fault loss = fault(FaultKind::kLoss, {}, 1.0);
+  Fault loss = fault_among(FaultKind::kLoss, {}, 1.0);
   loss.short_range = false;
   faults.begin(loss);
   EXPECT_THAT(faults.arrivals(4, 7, kRadio), IsEmpty());
@@ -76,7 +76,8 @@ TEST(LinkFaults, WithoutRobotsAllAreConcernedOnTheLinksThatAreNamed) {
 
 TEST(LinkFaults, DuplicationSendsItsShareTwiceButNothingThatWasLost) {
   LinkFaults faults(4);
-  const Fault twice = fault(FaultKind::kDuplication, {}, 0.25), loss = fault(FaultKind::kLoss, {}, 0.5);
+  const Fault twice = fault_among(FaultKind::kDuplication, {}, 0.25),
+              loss = fault_among(FaultKind::kLoss, {}, 0.5);
   faults.begin(twice);
   EXPECT_NEAR(copies(faults, 0, 1)[2], 0.25 * kMany, 250);
   faults.end(twice);
@@ -89,7 +90,8 @@ TEST(LinkFaults, DuplicationSendsItsShareTwiceButNothingThatWasLost) {
 
 TEST(LinkFaults, TheLongestDelayCounts) {
   LinkFaults faults(5);
-  const Fault slow = fault(FaultKind::kDelay, {}, 2.0), slower = fault(FaultKind::kDelay, {0}, 5.0);
+  const Fault slow = fault_among(FaultKind::kDelay, {}, 2.0),
+              slower = fault_among(FaultKind::kDelay, {0}, 5.0);
   faults.begin(slower);
   faults.begin(slow);
   Duration longest{}, elsewhere{};
@@ -105,7 +107,7 @@ TEST(LinkFaults, TheLongestDelayCounts) {
 
 TEST(LinkFaults, OneWayIsOneWay) {
   LinkFaults faults(6);
-  const Fault deaf = fault(FaultKind::kOneWay, {2, 0});
+  const Fault deaf = fault_among(FaultKind::kOneWay, {2, 0});
   faults.begin(deaf);
   EXPECT_TRUE(faults.cuts(2, 0, kRadio));
   EXPECT_FALSE(faults.cuts(0, 2, kRadio));
@@ -116,7 +118,7 @@ TEST(LinkFaults, OneWayIsOneWay) {
 
 TEST(LinkFaults, APartitionCutsBetweenItsSidesAndNotWithin) {
   LinkFaults faults(7);
-  Fault split = fault(FaultKind::kPartition, {0, 3});
+  Fault split = fault_among(FaultKind::kPartition, {0, 3});
   split.short_range = false;
   faults.begin(split);
   for (std::size_t from = 0; from < 5; ++from) {

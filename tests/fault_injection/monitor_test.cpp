@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fault_injection/three_robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::fault_injection {
@@ -13,8 +14,6 @@ using fleetmap::testing::make_node;
 using fleetmap::testing::random_bytes;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-const Stamp kNow = stamp_from_ns(1'700'000'000'000'000'000);
 
 class MonitorTest : public ::testing::Test {
  protected:

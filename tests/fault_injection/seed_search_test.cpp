@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fault_injection/checked_runs.hpp"
 #include "fleetmap/fault_injection/fleet_run.hpp"
 
 namespace fleetmap::fault_injection {
@@ -14,16 +15,10 @@ namespace {
 
 using ::testing::UnorderedElementsAreArray;
 
-ScenarioConfig small_fleets() {
+ScenarioConfig fleets_of_three() {
   ScenarioConfig config;
   config.max_robots = 3;
   config.mapping = std::chrono::seconds(30);
-  return config;
-}
-
-RunConfig checking(const char* invariants) {
-  RunConfig config;
-  config.invariants = parse_invariants(invariants).value();
   return config;
 }
 
@@ -31,7 +26,7 @@ TEST(SeedSearch, TotalsAreThoseOfTheRunsHoweverManyRunAtATime) {
   const RunConfig config = checking("all");
   SeedTotals expected;
   for (std::uint64_t seed = 5; seed < 8; ++seed) {
-    const Outcome outcome = run(make_scenario(seed, small_fleets()), config);
+    const Outcome outcome = run(make_scenario(seed, fleets_of_three()), config);
     expected.longest_s = std::max(expected.longest_s, to_seconds(outcome.converged_after));
     expected.max_bytes_per_second = std::max(expected.max_bytes_per_second, outcome.max_bytes_per_second);
     expected.nodes += outcome.nodes;
@@ -42,7 +37,7 @@ TEST(SeedSearch, TotalsAreThoseOfTheRunsHoweverManyRunAtATime) {
   for (const unsigned jobs : {1u, 3u}) {
     std::size_t reports = 0;
     const SeedTotals totals = try_seeds({.first = 5, .count = 3, .jobs = jobs, .shrinks = false},
-                                        small_fleets(), config, [&](const std::string&) { ++reports; });
+                                        fleets_of_three(), config, [&](const std::string&) { ++reports; });
     EXPECT_EQ(totals.nodes, expected.nodes) << jobs;
     EXPECT_EQ(totals.packets, expected.packets) << jobs;
     EXPECT_EQ(totals.longest_s, expected.longest_s) << jobs;
@@ -56,7 +51,7 @@ TEST(SeedSearch, TotalsAreThoseOfTheRunsHoweverManyRunAtATime) {
 TEST(SeedSearch, EachFailureIsReportedWithItsSeed) {
   RunConfig config = checking("converges");
   config.convergence_timeout = std::chrono::milliseconds(1);
-  ScenarioConfig scenarios = small_fleets();
+  ScenarioConfig scenarios = fleets_of_three();
   scenarios.kinds = parse_fault_kinds("partition").value();
   std::vector<std::string> expected, reports;
   for (std::uint64_t seed = 11; seed < 15; ++seed) {

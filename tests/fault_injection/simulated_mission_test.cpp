@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fault_injection/three_robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::fault_injection {
@@ -9,7 +10,6 @@ namespace {
 
 using fleetmap::testing::agent;
 
-const std::vector<AgentId> kFleet{agent("r1"), agent("r2"), agent("r3")};
 const Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
 
 class SimulatedMissionTest : public ::testing::Test {

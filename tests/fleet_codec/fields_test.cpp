@@ -9,15 +9,16 @@
 #include <numbers>
 
 #include "random_messages.hpp"
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::fleet_codec {
 namespace {
 
 using fleet_codec::testing::id;
 using fleet_codec::testing::RandomMessages;
+using fleetmap::testing::kNaN;
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// The first rule that `read` broke; "none" if it kept all.
@@ -78,10 +79,10 @@ TEST(FieldCheck, NumbersOfItemsAndRangesHaveAnEnd) {
 }
 
 TEST(FieldCheck, NumbersStayWithinTheirLimitsAndNeverPassAsNan) {
-  for (const double bad : {2.001, -2.001, kNan, kInfinite, -kInfinite})
+  for (const double bad : {2.001, -2.001, kNaN<double>, kInfinite, -kInfinite})
     EXPECT_EQ(broken([&](FieldCheck& c) { c.within(bad, 2.0, "x"); }),
               "Some: x is not finite or beyond its range");
-  for (const double bad : {2.001, -0.001, kNan, kInfinite})
+  for (const double bad : {2.001, -0.001, kNaN<double>, kInfinite})
     EXPECT_EQ(broken([&](FieldCheck& c) { c.size(bad, 2.0, "x"); }),
               "Some: x is negative, not finite or too large");
   EXPECT_EQ(broken([](FieldCheck& c) {
@@ -128,7 +129,7 @@ TEST(Fields, FloatsAreClampedToFiniteOnes) {
   EXPECT_EQ(to_float(1.5), 1.5f);
   EXPECT_EQ(to_float(1e300), std::numeric_limits<float>::max());
   EXPECT_EQ(to_float(-kInfinite), -std::numeric_limits<float>::max());
-  EXPECT_TRUE(std::isnan(to_float(kNan))) << "its reader refuses it";
+  EXPECT_TRUE(std::isnan(to_float(kNaN<double>))) << "its reader refuses it";
   EXPECT_EQ(bounded({1, 2, 3}, 2), (Bytes{1, 2}));
   EXPECT_EQ(bounded({1, 2, 3}, 4), (Bytes{1, 2, 3}));
 }
@@ -155,7 +156,7 @@ TEST(Fields, RotationsComeBackWithinAStepOfTheirUnit) {
 
 TEST(Fields, InvalidRotationIsEncodedAsARefusedCode) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R(2, 1) = kNan;
+  R(2, 1) = kNaN<double>;
   const auto code = encode_rotation<std::int16_t>(R);
   EXPECT_EQ(broken([&](FieldCheck& c) { decode_rotation(code, c, "no rotation"); }), "Some: no rotation");
   for (const std::array<std::int16_t, 3>& beyond :
@@ -173,7 +174,7 @@ TEST(Fields, LogarithmicStepsAreTheNearest) {
   EXPECT_EQ(scale.encode(1e-4 * std::exp2(10.49 / 16.0)), 10);
   EXPECT_EQ(scale.encode(1e-4 * std::exp2(10.51 / 16.0)), 11);
   for (const double small : {0.0, -1.0, 1e-9, -kInfinite}) EXPECT_EQ(scale.encode(small), 0) << small;
-  for (const double large : {1e9, kInfinite, kNan}) EXPECT_EQ(scale.encode(large), 255) << large;
+  for (const double large : {1e9, kInfinite, kNaN<double>}) EXPECT_EQ(scale.encode(large), 255) << large;
 }
 
 TEST(Fields, OfACovarianceTheUpperTriangleIsKeptAndChecked) {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "random_messages.hpp"
+#include "support/field_bounds.hpp"
 #include "wire_bytes.hpp"
 
 namespace fleetmap::fleet_codec {
@@ -16,9 +16,8 @@ namespace {
 
 using fleet_codec::testing::RandomMessages;
 using fleet_codec::testing::WireBytes;
+using fleetmap::testing::kNaN;
 using ::testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(GlobalPoseCodec, KeepsEveryBit) {
   RandomMessages random(1);
@@ -63,11 +62,11 @@ TEST(GlobalPoseCodec, InvalidPoseIsRefusedWithTheReason) {
       {"stamp is outside 1970 to 2116", [](GlobalPose& p) { p.stamp = stamp_from_ns(-1); }},
       {"position is not on Earth", [](GlobalPose& p) { p.position.latitude = 1.58; }},
       {"position is not on Earth", [](GlobalPose& p) { p.position.longitude = -3.15; }},
-      {"position is not on Earth", [](GlobalPose& p) { p.position.altitude = kNan; }},
+      {"position is not on Earth", [](GlobalPose& p) { p.position.altitude = kNaN<double>; }},
       {"position is not on Earth", [](GlobalPose& p) { p.position.altitude = 1.1e5; }},
       {"norm of orientation", [](GlobalPose& p) { p.q_enu_base.coeffs() *= 1.00001; }},
-      {"norm of orientation", [](GlobalPose& p) { p.q_enu_base.x() = kNan; }},
-      {"covariance is not finite", [](GlobalPose& p) { p.covariance(0, 5) = kNan; }},
+      {"norm of orientation", [](GlobalPose& p) { p.q_enu_base.x() = kNaN<double>; }},
+      {"covariance is not finite", [](GlobalPose& p) { p.covariance(0, 5) = kNaN<double>; }},
       {"covariance has a negative variance", [](GlobalPose& p) { p.covariance(3, 3) = -1e-9; }},
       {"covariance has a correlation beyond 1", [](GlobalPose& p) { p.covariance(1, 2) = 1.01; }},
   };

@@ -10,7 +10,7 @@
 namespace fleetmap::fleet_codec {
 namespace {
 
-std::string refusal(const Bytes& cdr) {
+std::string schema_refusal(const Bytes& cdr) {
   const Status status = check_fleet_type(cdr, "Some", 32'768);
   return status ? "none" : status.error().message;
 }
@@ -23,30 +23,30 @@ Bytes message(std::size_t size, std::uint8_t version = kSchemaVersion) {
 }
 
 TEST(FleetSchema, BothByteOrdersOfThisVersionAreTaken) {
-  EXPECT_EQ(refusal(message(5)), "none");
+  EXPECT_EQ(schema_refusal(message(5)), "none");
   Bytes big_endian = message(5);
   big_endian[1] = 0;
-  EXPECT_EQ(refusal(big_endian), "none");
+  EXPECT_EQ(schema_refusal(big_endian), "none");
 }
 
 TEST(FleetSchema, OtherEncapsulationsAreRefusedBeforeAnythingIsRead) {
-  EXPECT_EQ(refusal({}), "Some: 0 bytes are too few for a CDR message");
-  EXPECT_EQ(refusal({0, 1, 0, 0}), "Some: 4 bytes are too few for a CDR message");
+  EXPECT_EQ(schema_refusal({}), "Some: 0 bytes are too few for a CDR message");
+  EXPECT_EQ(schema_refusal({0, 1, 0, 0}), "Some: 4 bytes are too few for a CDR message");
   Bytes parameters = message(100, 99);
   parameters[1] = 3;
-  EXPECT_EQ(refusal(parameters), "Some: encapsulation 3 is not plain XCDR1 (0 or 1)");
+  EXPECT_EQ(schema_refusal(parameters), "Some: encapsulation 3 is not plain XCDR1 (0 or 1)");
 }
 
 TEST(FleetSchema, AnotherVersionIsNamedBesideThisOne) {
-  EXPECT_EQ(refusal(message(5, 5)), "Some: the sender speaks schema version 5, this program version " +
-                                        std::to_string(kSchemaVersion) +
-                                        "; run the same release on all robots");
-  EXPECT_EQ(refusal(message(100'000, 255)).find("Some: the sender speaks schema version 255"), 0u);
+  EXPECT_EQ(schema_refusal(message(5, 5)), "Some: the sender speaks schema version 5, this program version " +
+                                               std::to_string(kSchemaVersion) +
+                                               "; run the same release on all robots");
+  EXPECT_EQ(schema_refusal(message(100'000, 255)).find("Some: the sender speaks schema version 255"), 0u);
 }
 
 TEST(FleetSchema, ALongerMessageThanItsTypeHasIsRefused) {
-  EXPECT_EQ(refusal(message(32'768)), "none");
-  EXPECT_EQ(refusal(message(32'769)), "Some: 32769 bytes are more than this type can have");
+  EXPECT_EQ(schema_refusal(message(32'768)), "none");
+  EXPECT_EQ(schema_refusal(message(32'769)), "Some: 32769 bytes are more than this type can have");
 }
 
 TEST(FleetSchema, ATypeIsReadOnlyWhereAllThatHolds) {

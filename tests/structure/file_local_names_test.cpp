@@ -1,8 +1,9 @@
-// A name in an anonymous namespace belongs to one file of its library: several files can then be compiled as
-// one, and a reader who searches for it finds one thing.
+// A name in an anonymous namespace belongs to one file of its library or suite of tests: several files can
+// then be compiled as one, and a reader who searches for it finds one thing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <set>
@@ -71,13 +72,46 @@ std::vector<std::string> names_declared_by(std::string_view line) {
   return names;
 }
 
-std::set<std::string> file_local_names(const std::vector<std::string>& lines) {
-  std::set<std::string> names;
+std::vector<std::string> lines_of_anonymous_namespaces(const std::vector<std::string>& lines) {
+  std::vector<std::string> found;
   bool anonymous = false;
   for (const std::string& line : lines) {
     if (line == "namespace {") anonymous = true;
     if (line == "}  // namespace") anonymous = false;
-    if (!anonymous) continue;
+    if (anonymous) found.push_back(line);
+  }
+  return found;
+}
+
+std::set<std::string> file_local_names(const std::vector<std::string>& lines) {
+  std::set<std::string> names;
+  for (const std::string& line : lines_of_anonymous_namespaces(lines)) {
+    for (std::string& name : names_declared_by(line)) names.insert(std::move(name));
+  }
+  return names;
+}
+
+/// The name that an alias ("using X = Y;") or a matcher ("MATCHER_P(X, ...") of a file of tests declares. Two
+/// files compiled as one cannot each declare it for a type or a matcher of its own.
+std::vector<std::string> alias_or_matcher(std::string_view line) {
+  std::size_t end = std::string_view::npos;
+  if (line.starts_with("using ")) end = line.find(" = ");
+  if (line.starts_with("MATCHER")) end = line.find(',', line.find('('));
+  if (end == std::string_view::npos) return {};
+  return {name_before(line, end)};
+}
+
+/// Cases of tests have names of their own.
+bool is_test_macro(std::string_view line) {
+  return std::ranges::any_of(std::array{"TEST", "TYPED_TEST", "INSTANTIATE_", "MATCHER"},
+                             [&](std::string_view macro) { return line.starts_with(macro); });
+}
+
+std::set<std::string> file_local_names_of_test(const std::vector<std::string>& lines) {
+  std::set<std::string> names;
+  for (const std::string& line : lines_of_anonymous_namespaces(lines)) {
+    for (std::string& name : alias_or_matcher(line)) names.insert(std::move(name));
+    if (is_test_macro(line)) continue;
     for (std::string& name : names_declared_by(line)) names.insert(std::move(name));
   }
   return names;
@@ -101,6 +135,22 @@ TEST(FileLocalNames, AreReadFromDeclarations) {
   EXPECT_EQ(names_declared_by("namespace fs = std::filesystem;"), Names{});
 }
 
+TEST(FileLocalNames, OfTestsAreAliasesAndMatchersToo) {
+  const std::vector<std::string> lines{"namespace {",
+                                       "using Points = std::vector<int>;",
+                                       "using testing::agent;",
+                                       "using namespace std::chrono_literals;",
+                                       "MATCHER_P(IsNear, place, \"\") { return true; }",
+                                       "MATCHER(IsSigned, \"\") {",
+                                       "TEST(Points, AreMany) {",
+                                       "TYPED_TEST_SUITE(PointsTest, Kinds);",
+                                       "const AgentId kSelf = agent(\"r1\"), kPeer = agent(\"r2\");",
+                                       "}  // namespace",
+                                       "struct Shared {"};
+  EXPECT_EQ(file_local_names_of_test(lines),
+            (std::set<std::string>{"IsNear", "IsSigned", "Points", "kPeer", "kSelf"}));
+}
+
 TEST(FileLocalNames, BelongToOneFileOfTheirLibrary) {
   std::map<std::string, std::map<std::string, std::string>> owners;  // library, name, file
   std::size_t names = 0;
@@ -112,6 +162,23 @@ TEST(FileLocalNames, BelongToOneFileOfTheirLibrary) {
       const auto [owner, is_first] = owners[library].emplace(name, file);
       EXPECT_TRUE(is_first) << name << " is in " << owner->second << " and in " << file
                             << ": share it in a header, or name each by what it is";
+    }
+  }
+  EXPECT_GT(names, 1500u) << "the tree is read";
+}
+
+TEST(FileLocalNames, BelongToOneFileOfTheirSuite) {
+  std::map<std::string, std::map<std::string, std::string>> owners;  // suite, name, file
+  std::size_t names = 0;
+  for (const std::string& file : files_below("tests", ".cpp")) {
+    const std::string suite = library_of(file);
+    if (suite == "bench" || suite == "fuzz") continue;  // each file is a program of its own
+    for (const std::string& name : file_local_names_of_test(lines_of(file))) {
+      ++names;
+      const auto [owner, is_first] = owners[suite].emplace(name, file);
+      EXPECT_TRUE(is_first) << name << " is in " << owner->second << " and in " << file
+                            << ", which are compiled as one: move it into a header of tests/" << suite
+                            << " if both mean the same, or else name each by what it is";
     }
   }
   EXPECT_GT(names, 1500u) << "the tree is read";

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "apps/devices/patience.hpp"
 #include "fleetmap/core/utc.hpp"
 #include "support/eventually.hpp"
 #include "support/udp_sender.hpp"
@@ -16,16 +17,14 @@ using fleetmap::testing::UdpSender;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr std::chrono::seconds kPatience(60);
-
 /// An input that takes datagrams that begin with a 1, whose sizes are collected.
-struct Received {
+struct ReceivedDatagrams {
   std::mutex mutex;
   std::vector<std::size_t> sizes;
   std::vector<Stamp> arrivals;
   std::unique_ptr<DatagramInput> input;
 
-  Received() {
+  ReceivedDatagrams() {
     auto opened = DatagramInput::open(
         0, "lidar.port", "topics.points",
         [this](ByteView payload, Stamp arrival) -> tl::expected<void, sensor::PacketRefusal> {
@@ -46,7 +45,7 @@ struct Received {
 };
 
 TEST(DatagramInput, DatagramsOfAnySizeComeWithTheirTimeOfArrival) {
-  Received received;
+  ReceivedDatagrams received;
   const UdpSender sender(received.input->port());
   const Stamp before = system_now();
   for (const std::size_t size : {1u, 1206u, 33'024u, 65'000u}) sender.send(Bytes(size, 1));
@@ -60,7 +59,7 @@ TEST(DatagramInput, DatagramsOfAnySizeComeWithTheirTimeOfArrival) {
 }
 
 TEST(DatagramInput, RefusalsAreCountedAndAreNoSignOfTheDevice) {
-  Received received;
+  ReceivedDatagrams received;
   const UdpSender other(received.input->port(), "127.0.0.2"), device(received.input->port(), "127.0.0.1");
   other.send(Bytes(10, 7));
   received.wait_for(1);
@@ -71,7 +70,7 @@ TEST(DatagramInput, RefusalsAreCountedAndAreNoSignOfTheDevice) {
 }
 
 TEST(DatagramInput, ASecondDeviceIsRefusedWhileTheFirstSends) {
-  Received received;
+  ReceivedDatagrams received;
   const UdpSender first(received.input->port(), "127.0.0.1"), second(received.input->port(), "127.0.0.2");
   std::uint64_t sent = 0;
   for (const UdpSender* sender : {&first, &second, &first}) {
@@ -83,7 +82,7 @@ TEST(DatagramInput, ASecondDeviceIsRefusedWhileTheFirstSends) {
 }
 
 TEST(DatagramInput, APortThatIsTakenIsAnErrorWithItsKeyAndTheRemedy) {
-  Received received;
+  ReceivedDatagrams received;
   const auto again =
       DatagramInput::open(received.input->port(), "lidar.port", "topics.points",
                           [](ByteView, Stamp) { return tl::expected<void, sensor::PacketRefusal>(); });

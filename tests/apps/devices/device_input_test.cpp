@@ -10,7 +10,9 @@
 #include <optional>
 #include <sstream>
 
+#include "apps/devices/patience.hpp"
 #include "support/eventually.hpp"
+#include "support/occurrences.hpp"
 #include "support/pseudo_terminal.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -18,16 +20,9 @@ namespace fleetmap::apps {
 namespace {
 
 using fleetmap::testing::eventually;
+using fleetmap::testing::occurrences;
 using fleetmap::testing::PseudoTerminal;
 using namespace std::chrono_literals;
-
-constexpr std::chrono::seconds kPatience(60);
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t times = 0;
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++times;
-  return times;
-}
 
 /// A device behind a link whose target comes and goes, as those of udev do.
 class DeviceInputTest : public ::testing::Test {
@@ -107,8 +102,8 @@ TEST_F(DeviceInputTest, ADeviceThatVanishesIsReadAgainWhenItComesBack) {
   EXPECT_EQ(input_->trouble(), "") << "it is heard";
   input_.reset();
   const std::string log = log_.str();
-  EXPECT_LE(count(log, "no such device"), 2u) << log;
-  EXPECT_EQ(count(log, "autopilot: heard"), 2u) << log;
+  EXPECT_LE(occurrences(log, "no such device"), 2u) << log;
+  EXPECT_EQ(occurrences(log, "autopilot: heard"), 2u) << log;
 }
 
 TEST_F(DeviceInputTest, AMissingDeviceIsSaidOnce) {
@@ -118,9 +113,10 @@ TEST_F(DeviceInputTest, AMissingDeviceIsSaidOnce) {
   EXPECT_THAT(input_->trouble(),
               ::testing::EndsWith("autopilot: no such device; plug it in, or correct the path"));
   input_.reset();
-  EXPECT_EQ(count(log_.str(),
+  EXPECT_EQ(
+      occurrences(log_.str(),
                   "autopilot: no such device; plug it in, or correct the path; tried again every second"),
-            1u)
+      1u)
       << log_.str();
 }
 
@@ -131,7 +127,7 @@ TEST_F(DeviceInputTest, ADeviceThatSendsNothingIsSaidOnce) {
   const auto begun = std::chrono::steady_clock::now();
   ASSERT_TRUE(eventually([&] { return std::chrono::steady_clock::now() - begun > 6500ms; }, kPatience));
   input_.reset();
-  EXPECT_EQ(count(log_.str(), "autopilot: sends nothing; check its power"), 1u) << log_.str();
+  EXPECT_EQ(occurrences(log_.str(), "autopilot: sends nothing; check its power"), 1u) << log_.str();
 }
 
 TEST_F(DeviceInputTest, EndsWhileTheDeviceIsMissing) {

@@ -34,7 +34,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr std::chrono::seconds kPatience(240);
+constexpr std::chrono::seconds kMadeWithin(240);
 /// The robot stands with its front to the east where gps_raw_int() says that the antenna is.
 const GeoPoint kAntenna = geo_point_from_degrees(39.0, -3.0, 650.0);
 const Vector3d kAntennaInBase(-0.15, 0.0, 0.40);  // of config/robots/jackal_vlp16.yaml
@@ -141,7 +141,7 @@ TEST(LiveDevices, TheJackalMakesAGeoreferencedNode) {
         "dds.short_range.domain=" + std::to_string(domain + 2)})
     command.insert(command.end(), {"--set", set});
   Process agent(command);
-  ASSERT_TRUE(eventually([&] { return autopilot.answered() > 0 || !agent.running(); }, kPatience))
+  ASSERT_TRUE(eventually([&] { return autopilot.answered() > 0 || !agent.running(); }, kMadeWithin))
       << agent.output();
   const Lidar lidar(port);
   std::optional<graph::Node> node;
@@ -150,7 +150,7 @@ TEST(LiveDevices, TheJackalMakesAGeoreferencedNode) {
     if (store && !store->nodes().empty()) node = store->nodes().begin()->second;
     return node.has_value() || !agent.running();
   };
-  ASSERT_TRUE(eventually(made, kPatience)) << agent.output();
+  ASSERT_TRUE(eventually(made, kMadeWithin)) << agent.output();
   agent.signal(SIGINT);
   EXPECT_EQ(agent.wait(), 0) << agent.output();
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "apps/devices/patience.hpp"
 #include "fleetmap/core/utc.hpp"
 #include "support/eventually.hpp"
 #include "support/ouster_packets.hpp"
@@ -21,8 +22,6 @@ using fleetmap::testing::OusterDevice;
 using fleetmap::testing::UdpSender;
 using ::testing::HasSubstr;
 
-constexpr std::chrono::seconds kPatience(60);
-
 agent::OusterConfig config_of(const OusterDevice& device) {
   agent::OusterConfig config;
   config.metadata = sensor::read_ouster_metadata(device.metadata()).value();
@@ -33,13 +32,13 @@ agent::OusterConfig config_of(const OusterDevice& device) {
 }
 
 /// An input whose samples are collected.
-struct Received {
+struct ReceivedOuster {
   std::mutex mutex;
   std::vector<sensor::Scan> scans;
   std::vector<sensor::Imu> imus;
   std::unique_ptr<OusterInput> input;
 
-  explicit Received(const agent::OusterConfig& config) {
+  explicit ReceivedOuster(const agent::OusterConfig& config) {
     auto opened = OusterInput::open(config, {.on_scan =
                                                  [this](const sensor::Scan& scan) {
                                                    const std::scoped_lock lock(mutex);
@@ -69,7 +68,7 @@ TEST(OusterInput, PacketsOverUdpBecomeScansAndImuSamples) {
     OusterDevice device(start.time_since_epoch());
     device.profile = profile;
     const agent::OusterConfig config = config_of(device);
-    Received received(config);
+    ReceivedOuster received(config);
     const UdpSender lidar(config.lidar_port), imu(config.imu_port);
     std::uint64_t imu_packets = 0;
     for (std::uint64_t sent = 1; sent <= 200; ++sent) {
@@ -98,7 +97,7 @@ TEST(OusterInput, PacketsOverUdpBecomeScansAndImuSamples) {
 
 TEST(OusterInput, BytesThatAreNoPacketAreCounted) {
   const agent::OusterConfig config = config_of(OusterDevice(Duration::zero()));
-  Received received(config);
+  ReceivedOuster received(config);
   const UdpSender lidar(config.lidar_port), imu(config.imu_port);
   for (const std::size_t size : {0u, 48u, 3'000u}) lidar.send(Bytes(size));
   imu.send(Bytes(100));
@@ -109,7 +108,7 @@ TEST(OusterInput, BytesThatAreNoPacketAreCounted) {
 
 TEST(OusterInput, APortThatIsTakenIsNamedByItsKey) {
   agent::OusterConfig config = config_of(OusterDevice(Duration::zero()));
-  Received received(config);
+  ReceivedOuster received(config);
   EXPECT_THAT(OusterInput::open(config, {}).error().message, HasSubstr("lidar.ouster_port"));
   config.lidar_port = free_udp_port();
   EXPECT_THAT(OusterInput::open(config, {}).error().message,

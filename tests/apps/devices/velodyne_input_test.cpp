@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/devices/patience.hpp"
 #include "fleetmap/core/utc.hpp"
 #include "support/eventually.hpp"
 #include "support/udp_sender.hpp"
@@ -20,15 +21,13 @@ using fleetmap::testing::UdpSender;
 using fleetmap::testing::VelodyneDevice;
 using ::testing::HasSubstr;
 
-constexpr std::chrono::seconds kPatience(60);
-
 /// An input whose scans are collected.
-struct Received {
+struct ReceivedVelodyne {
   std::mutex mutex;
   std::vector<sensor::Scan> scans;
   std::unique_ptr<VelodyneInput> input;
 
-  Received() {
+  ReceivedVelodyne() {
     auto opened = VelodyneInput::open(0, [this](const sensor::Scan& scan) {
       const std::scoped_lock lock(mutex);
       scans.push_back(scan);
@@ -48,7 +47,7 @@ struct Received {
 };
 
 TEST(VelodyneInput, PacketsOverUdpBecomeScans) {
-  Received received;
+  ReceivedVelodyne received;
   const UdpSender sender(received.input->port());
   const Stamp start = system_now();
   VelodyneDevice device(start.time_since_epoch());
@@ -70,7 +69,7 @@ TEST(VelodyneInput, PacketsOverUdpBecomeScans) {
 }
 
 TEST(VelodyneInput, BytesThatAreNoPacketAreCounted) {
-  Received received;
+  ReceivedVelodyne received;
   const UdpSender sender(received.input->port());
   for (const std::size_t size : {0u, 10u, 1206u, 3000u}) sender.send(Bytes(size));
   received.wait_for_datagrams(4);
@@ -78,7 +77,7 @@ TEST(VelodyneInput, BytesThatAreNoPacketAreCounted) {
 }
 
 TEST(VelodyneInput, APortThatIsTakenIsAnErrorThatNamesIt) {
-  Received received;
+  ReceivedVelodyne received;
   const auto again = VelodyneInput::open(received.input->port(), [](const sensor::Scan&) {});
   ASSERT_FALSE(again);
   EXPECT_THAT(again.error().message,

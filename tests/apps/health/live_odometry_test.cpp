@@ -18,8 +18,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
-
 /// A computer that takes `scan_time` for a scan.
 class Computer {
  public:

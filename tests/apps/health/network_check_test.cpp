@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/robot_name.hpp"
 #include "bus/dds_domains.hpp"
 #include "support/command_line.hpp"
 #include "support/eventually.hpp"
@@ -22,9 +23,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr auto kPatience = std::chrono::seconds(30);
-
-std::string name(int robot) { return std::string("r").append(std::to_string(robot)); }
+constexpr auto kLoggedWithin = std::chrono::seconds(30);
 
 std::uint32_t domain_of_fleet() { return bus::testing::first_test_domain(); }
 
@@ -44,9 +43,9 @@ class NetworkCheck : public ::testing::Test {
 
   std::string file(int robot, const Other& other = {}) const {
     const std::uint32_t onboard = domain_of_fleet() + static_cast<std::uint32_t>(robot);
-    std::string path = (folder_.path() / (name(robot) + ".yaml")).string();
-    std::ofstream(path) << "id: " << name(robot) << "\nfleet: " << other.fleet << '\n'
-                        << "directory: " << (folder_.path() / name(robot)).string() << '\n'
+    std::string path = (folder_.path() / (testing::robot_name(robot) + ".yaml")).string();
+    std::ofstream(path) << "id: " << testing::robot_name(robot) << "\nfleet: " << other.fleet << '\n'
+                        << "directory: " << (folder_.path() / testing::robot_name(robot)).string() << '\n'
                         << "lidar: {model: vlp16}\n"
                         << other.lines << "dds:\n  qos: " << FLEETMAP_SOURCE_DIR << "/qos\n"
                         << "  onboard: {domain: " << onboard << "}\n"
@@ -70,7 +69,7 @@ class NetworkCheck : public ::testing::Test {
   }
   bool heard(std::size_t by, const std::string& what) const {
     return testing::eventually([&] { return agents_.at(by)->output().find(what) != std::string::npos; },
-                               kPatience);
+                               kLoggedWithin);
   }
 
   testing::TemporaryFolder folder_;

@@ -22,8 +22,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
-
 class SensorListenerTest : public ::testing::Test {
  protected:
   void publish(const recording::Sample& sample) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/driven_days.hpp"
+#include "store/items.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
@@ -11,8 +12,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-AgentId robot(const char* name) { return AgentId::parse(name).value(); }
 
 TEST(StoredMap, FilesThatAreNoStoreAreRefusedWithTheRemedy) {
   const testing::TemporaryFolder folder;
@@ -26,7 +25,7 @@ TEST(StoredMap, FilesThatAreNoStoreAreRefusedWithTheRemedy) {
 }
 
 TEST(StoredMap, NamesThatAreNoneAreRefused) {
-  EXPECT_THAT(robots_named({"r1", "r20"}).value(), ElementsAre(robot("r1"), robot("r20")));
+  EXPECT_THAT(robots_named({"r1", "r20"}).value(), ElementsAre(testing::agent("r1"), testing::agent("r20")));
   EXPECT_FALSE(robots_named({"r1", "two words"}));
 }
 
@@ -61,7 +60,7 @@ TEST_F(StoredDay, TheOriginAndTheVoxelsAreThoseAskedFor) {
 }
 
 TEST_F(StoredDay, ARobotOfWhichNothingIsHeldCannotBeLeftOut) {
-  const auto map = open_map(days_.path("a.db"), {{}, {}, {robot("r9")}});
+  const auto map = open_map(days_.path("a.db"), {{}, {}, {testing::agent("r9")}});
   ASSERT_FALSE(map);
   EXPECT_THAT(map.error().message, HasSubstr("r9"));
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "store/items.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
@@ -10,8 +11,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-AgentId id(const char* name) { return AgentId::parse(name).value(); }
 
 class OperatorFleetTest : public ::testing::Test {
  protected:
@@ -26,8 +25,8 @@ TEST_F(OperatorFleetTest, RobotFileAddressesTheRobotItselfToo) {
       "dds:\n  long_range: {peers: [10.0.0.2], address: 10.0.0.1}\n  short_range: {enabled: false}\n");
   const auto fleet = operator_fleet(file, {});
   ASSERT_TRUE(fleet) << fleet.error().message;
-  EXPECT_THAT(fleet->robots, ElementsAre(id("r1"), id("r2")));
-  EXPECT_EQ(fleet->dds.agent, id("operator"));
+  EXPECT_THAT(fleet->robots, ElementsAre(testing::agent("r1"), testing::agent("r2")));
+  EXPECT_EQ(fleet->dds.agent, testing::agent("operator"));
   EXPECT_THAT(fleet->dds.long_range.peers, ElementsAre("10.0.0.2", "10.0.0.1"));
   EXPECT_TRUE(fleet->dds.long_range.enabled);
   EXPECT_FALSE(fleet->dds.short_range.enabled || fleet->dds.onboard.enabled) << "orders go over one radio";
@@ -37,7 +36,8 @@ TEST_F(OperatorFleetTest, RobotFileAddressesTheRobotItselfToo) {
 TEST_F(OperatorFleetTest, FleetFileAddressesAllMembers) {
   const auto fleet = operator_fleet(FLEETMAP_SOURCE_DIR "/config/fleets/farm_small.yaml", {});
   ASSERT_TRUE(fleet) << fleet.error().message;
-  EXPECT_THAT(fleet->robots, ElementsAre(id("r1"), id("r2"), id("r3"), id("r4"), id("r5")));
+  EXPECT_THAT(fleet->robots, ElementsAre(testing::agent("r1"), testing::agent("r2"), testing::agent("r3"),
+                                         testing::agent("r4"), testing::agent("r5")));
 }
 
 TEST_F(OperatorFleetTest, AnotherFileIsRefused) {
@@ -47,8 +47,8 @@ TEST_F(OperatorFleetTest, AnotherFileIsRefused) {
 }
 
 TEST_F(OperatorFleetTest, ARobotIsFoundByItsName) {
-  const OperatorFleet fleet{{id("r1"), id("r2")}, {}};
-  EXPECT_EQ(robot_named(fleet, "r2", "f.yaml"), id("r2"));
+  const OperatorFleet fleet{{testing::agent("r1"), testing::agent("r2")}, {}};
+  EXPECT_EQ(robot_named(fleet, "r2", "f.yaml"), testing::agent("r2"));
   const auto none = robot_named(fleet, "r9", "f.yaml");
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().message, "f.yaml: has no robot 'r9'");

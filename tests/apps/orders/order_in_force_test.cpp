@@ -13,6 +13,7 @@
 #include "bus/dds_domains.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "store/items.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -25,11 +26,9 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Pair;
 
-AgentId id(const char* name) { return AgentId::parse(name).value(); }
-
 std::unique_ptr<bus::DdsBus> bus_of(const char* name) {
   bus::DdsBusConfig config;
-  config.agent = id(name);
+  config.agent = testing::agent(name);
   config.qos_directory = std::string(FLEETMAP_SOURCE_DIR) + "/qos";
   config.onboard.enabled = config.short_range.enabled = false;
   config.long_range.domain = bus::testing::first_test_domain();
@@ -51,8 +50,12 @@ class OrderInForceTest : public ::testing::Test {
     });
   }
   /// r1 repeats the order and stands.
-  static Hold obeyed(const Hold& order) { return {id("r1"), Hold::Driving::kHeld, order.orders, order.rows}; }
-  HoldOrder order() const { return {operator_->now(), {}, id("operator"), HoldOrder::Kind::kHold}; }
+  static Hold obeyed(const Hold& order) {
+    return {testing::agent("r1"), Hold::Driving::kHeld, order.orders, order.rows};
+  }
+  HoldOrder order() const {
+    return {operator_->now(), {}, testing::agent("operator"), HoldOrder::Kind::kHold};
+  }
   /// Lets both sides work until `done`; false after 20 s.
   bool work_until(const std::function<bool()>& done) {
     const bus::Handle awake =
@@ -69,10 +72,10 @@ class OrderInForceTest : public ::testing::Test {
 TEST_F(OrderInForceTest, IsSentUntilTheRobotConfirmsIt) {
   int asked = 0;
   answer_ = [&](const Hold& order) { return ++asked < 2 ? std::nullopt : std::optional(obeyed(order)); };
-  const OrderInForce in_force(*operator_, {id("r1")}, order());
+  const OrderInForce in_force(*operator_, {testing::agent("r1")}, order());
   EXPECT_FALSE(in_force.confirmed_by_all());
   ASSERT_TRUE(work_until([&] { return in_force.confirmed_by_all(); }));
-  EXPECT_THAT(in_force.confirmed(), ElementsAre(Pair(id("r1"), Hold::Driving::kHeld)));
+  EXPECT_THAT(in_force.confirmed(), ElementsAre(Pair(testing::agent("r1"), Hold::Driving::kHeld)));
   EXPECT_GE(received_.size(), 2u) << "the first one had no answer";
 }
 
@@ -81,10 +84,10 @@ TEST_F(OrderInForceTest, ALaterOrderOfAClockAheadIsReplacedByOneLaterStill) {
   answer_ = [&](const Hold& order) {
     Hold reply = obeyed(order);
     if (reply.orders.front().stamp <= ahead)
-      reply.orders = {{ahead, {}, id("other"), HoldOrder::Kind::kResume}};
+      reply.orders = {{ahead, {}, testing::agent("other"), HoldOrder::Kind::kResume}};
     return reply;
   };
-  const OrderInForce in_force(*operator_, {id("r1")}, order());
+  const OrderInForce in_force(*operator_, {testing::agent("r1")}, order());
   ASSERT_TRUE(work_until([&] { return in_force.confirmed_by_all(); }));
   EXPECT_GT(received_.back().orders.front().stamp, ahead);
 }
@@ -94,9 +97,11 @@ TEST_F(OrderInForceTest, AnOperatorWhoInsistsLongerIsNotOutbidForEver) {
   answer_ = [&](const Hold& order) {
     stamps.insert(order.orders.front().stamp);
     const Stamp later = order.orders.front().stamp + 1s;
-    return Hold{id("r1"), Hold::Driving::kFree, {{later, {}, id("other"), HoldOrder::Kind::kResume}}};
+    return Hold{testing::agent("r1"),
+                Hold::Driving::kFree,
+                {{later, {}, testing::agent("other"), HoldOrder::Kind::kResume}}};
   };
-  const OrderInForce in_force(*operator_, {id("r1")}, order());
+  const OrderInForce in_force(*operator_, {testing::agent("r1")}, order());
   const std::size_t renewed = 4;  // the order, and three later ones
   ASSERT_TRUE(work_until([&] { return stamps.size() == renewed && received_.size() > renewed; }));
   EXPECT_EQ(stamps.size(), renewed);
@@ -104,20 +109,20 @@ TEST_F(OrderInForceTest, AnOperatorWhoInsistsLongerIsNotOutbidForEver) {
 }
 
 TEST_F(OrderInForceTest, OnlyRobotsThatItIsAddressedToConfirmIt) {
-  const OrderInForce in_force(*operator_, {id("r2")}, order());
+  const OrderInForce in_force(*operator_, {testing::agent("r2")}, order());
   ASSERT_TRUE(work_until([&] { return received_.size() >= 2; }));
   EXPECT_THAT(in_force.confirmed(), IsEmpty());
 }
 
 TEST_F(OrderInForceTest, ARowIsConfirmedByTheOrderForThatRow) {
-  RowOrder other{operator_->now(), id("r1"), {}, id("other"), 8};
+  RowOrder other{operator_->now(), testing::agent("r1"), {}, testing::agent("other"), 8};
   answer_ = [&](const Hold& order) {
     Hold reply = obeyed(order);
     if (received_.size() < 2) reply.rows = {other};
     return reply;
   };
-  const RowOrder row{operator_->now(), id("r1"), {}, id("operator"), 7};
-  const OrderInForce in_force(*operator_, {id("r1")}, row);
+  const RowOrder row{operator_->now(), testing::agent("r1"), {}, testing::agent("operator"), 7};
+  const OrderInForce in_force(*operator_, {testing::agent("r1")}, row);
   ASSERT_TRUE(work_until([&] { return in_force.confirmed_by_all(); }));
   EXPECT_GE(received_.size(), 2u) << "an order for row 8 is none for row 7";
   EXPECT_EQ(received_.back().rows.front(), row);

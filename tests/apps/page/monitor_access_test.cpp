@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-AccessOptions at(const std::string& address) {
+AccessOptions access_at(const std::string& address) {
   AccessOptions access;
   access.port = 8080;
   access.address = address;
@@ -20,7 +20,7 @@ AccessOptions at(const std::string& address) {
 }
 
 TEST(AccessOptions, OnThisMachineAloneNoTokenIsNeeded) {
-  const auto config = server_config(at("127.0.0.1"));
+  const auto config = server_config(access_at("127.0.0.1"));
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->token, "");
   EXPECT_EQ(config->port, 8080);
@@ -28,7 +28,7 @@ TEST(AccessOptions, OnThisMachineAloneNoTokenIsNeeded) {
 }
 
 TEST(AccessOptions, OthersNeedARandomToken) {
-  const auto one = server_config(at("0.0.0.0")), other = server_config(at("0.0.0.0"));
+  const auto one = server_config(access_at("0.0.0.0")), other = server_config(access_at("0.0.0.0"));
   ASSERT_TRUE(one && other);
   EXPECT_GE(one->token.size(), 16u);
   EXPECT_NE(one->token, other->token);
@@ -36,7 +36,7 @@ TEST(AccessOptions, OthersNeedARandomToken) {
 
 TEST(AccessOptions, TheTokenOfAFileIsUsedWithoutItsLineEnd) {
   const testing::TemporaryFolder folder;
-  AccessOptions access = at("0.0.0.0");
+  AccessOptions access = access_at("0.0.0.0");
   access.token_file = (folder.path() / "token").string();
   folder.write("token", "abcdefgh12345678\r\n");
   const auto config = server_config(access);
@@ -53,12 +53,12 @@ TEST(AccessOptions, TheTokenOfAFileIsUsedWithoutItsLineEnd) {
 }
 
 TEST(AccessOptions, WithoutAPortThereIsNoPageButWrongOptionsAreRefused) {
-  AccessOptions access = at("127.0.0.1");
+  AccessOptions access = access_at("127.0.0.1");
   access.port.reset();
   const auto none = config_of_page(access);
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none);
-  EXPECT_TRUE(config_of_page(at("127.0.0.1")).value());
+  EXPECT_TRUE(config_of_page(access_at("127.0.0.1")).value());
   access.address = "nowhere";
   EXPECT_FALSE(config_of_page(access));
 }

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "apps/two_robots.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -12,8 +14,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using namespace std::chrono_literals;
-
-const AgentId kR1 = AgentId::parse("r1").value(), kR2 = AgentId::parse("r2").value();
 
 messages::MissionReport report(MissionState state, std::uint32_t current, std::size_t rows,
                                std::size_t done) {

@@ -3,16 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "fleetmap/geometry/degree.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string row(const std::string& coordinates) {
   return R"({"type": "FeatureCollection", )"

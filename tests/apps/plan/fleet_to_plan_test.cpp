@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <numbers>
+
+#include "apps/plan/farm_site.hpp"
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const std::string kSite = FLEETMAP_SOURCE_DIR "/config/sites/farm_200.geojson";
 const std::string kConfig = FLEETMAP_SOURCE_DIR "/config/";
 
 TEST(FleetToPlan, WithoutAFileRobotsAreNumberedAndHaveTheMissionsSpeed) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "apps/plan/farm_site.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
@@ -13,8 +14,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const std::string kSite = FLEETMAP_SOURCE_DIR "/config/sites/farm_200.geojson";
 
 PlanOptions options_for(const std::string& site) {
   PlanOptions options;

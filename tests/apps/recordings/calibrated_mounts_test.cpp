@@ -22,7 +22,7 @@ const CalibratedQuantity& quantity(const CalibratedMounts& mounts, const std::st
   });
 }
 
-const CalibratedPlace& place(const CalibratedMounts& mounts, const std::string& section) {
+const CalibratedPlace& place_of(const CalibratedMounts& mounts, const std::string& section) {
   return *std::ranges::find(mounts.places, section, &CalibratedPlace::section);
 }
 
@@ -36,14 +36,14 @@ TEST(CalibratedMounts, MovesAllMountsIntoTheBaseOfTheWheels) {
   ASSERT_THAT(mounts.skipped, IsEmpty());
   const Pose lidar = made.T_wheels_base * in_use.T_base_lidar, imu = made.T_wheels_base * made.T_base_imu;
   const Eigen::Vector3d antenna = made.T_wheels_base * made.p_base_antenna;
-  const Pose& found = place(mounts, "lidar").T_base_sensor;
+  const Pose& found = place_of(mounts, "lidar").T_base_sensor;
   EXPECT_LT((found.translation() - lidar.translation()).head<2>().norm(), 0.03);
   EXPECT_EQ(found.translation().z(), 0.8) << "wheels do not show the height";
   EXPECT_LT(so3_log(found.linear().transpose() * lidar.linear()).norm(), 0.01);
-  const Pose& found_imu = place(mounts, "imu").T_base_sensor;
+  const Pose& found_imu = place_of(mounts, "imu").T_base_sensor;
   EXPECT_LT(so3_log(found_imu.linear().transpose() * imu.linear()).norm(), 0.02);
   EXPECT_LT((found_imu.translation() - imu.translation()).head<2>().norm(), 0.05);
-  EXPECT_LT((place(mounts, "gps").T_base_sensor.translation() - antenna).head<2>().norm(), 0.1);
+  EXPECT_LT((place_of(mounts, "gps").T_base_sensor.translation() - antenna).head<2>().norm(), 0.1);
   EXPECT_GT(mounts.metres, 50.0);
   EXPECT_GT(mounts.turned, 20.0);
 }
@@ -91,7 +91,7 @@ TEST(CalibratedMounts, AStraightDriveShowsYawOfTheLidarAlone) {
   EXPECT_FALSE(quantity(mounts, "LiDAR", "x").observable);
   EXPECT_EQ(quantity(mounts, "LiDAR", "x").remedy, "drive two figures of eight");
   EXPECT_EQ(mounts.places.size(), 1u);
-  EXPECT_THAT(place(mounts, "lidar").kept, HasSubstr("x, y, z"));
+  EXPECT_THAT(place_of(mounts, "lidar").kept, HasSubstr("x, y, z"));
   EXPECT_THAT(mounts.skipped, Contains(HasSubstr("IMU: not observable on this drive")));
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/made_robot.hpp"
 #include "apps/recorded_samples.hpp"
 #include "support/synthetic_lidar.hpp"
 
@@ -17,12 +18,6 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 constexpr int kScans = 6;
-
-agent::PerceptionConfig settings() {
-  agent::PerceptionConfig config;
-  config.odometry.T_base_lidar = testing::ScanOptions{}.T_base_lidar;
-  return config;
-}
 
 /// A drive that turns; scans at their stamps, before what gyro and wheels measure during their sweeps.
 std::vector<Sample> samples_by_stamp() {
@@ -54,7 +49,7 @@ std::vector<Sample> samples_by_end() {
 
 Result<OdometryRun> run_of(std::vector<Sample> samples, const std::string& failure = {}) {
   RecordedSamples recording(std::move(samples), failure);
-  return run_odometry(recording, {}, settings());
+  return run_odometry(recording, {}, made_robot_perception());
 }
 
 TEST(OdometryRun, AScanWaitsForWhatGyroAndWheelsMeasuredDuringItsSweep) {
@@ -107,7 +102,7 @@ TEST(OdometryRun, EachSampleIsShownAsItIsReadAndAsItIsUsed) {
   lost.angular_velocity.x() = std::numeric_limits<double>::quiet_NaN();
   RecordedSamples recording(samples);
   std::vector<std::size_t> kinds, used;
-  ASSERT_TRUE(run_odometry(recording, {}, settings(),
+  ASSERT_TRUE(run_odometry(recording, {}, made_robot_perception(),
                            {[&](const Sample& sample) { kinds.push_back(sample.index()); },
                             [&](const Sample& sample) { used.push_back(sample.index()); }}));
   EXPECT_EQ(used.size() + 1, kinds.size()) << "the gyro's NaN is not used";

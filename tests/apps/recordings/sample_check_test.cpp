@@ -8,6 +8,8 @@
 #include <iterator>
 #include <variant>
 
+#include "apps/made_robot.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -15,17 +17,15 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
-
 /// Samples of all four sensors for a minute; those of the GPS are `gps_ahead`.
-struct Outcome {
+struct CheckedSamples {
   std::size_t admitted_fixes = 0;
   Stamp last_fix;
   std::vector<std::string> news;
 };
-Outcome outcome(Duration gps_ahead, double force_unit) {
+CheckedSamples checked_samples(Duration gps_ahead, double force_unit) {
   SampleCheck check({}, {});
-  Outcome run;
+  CheckedSamples run;
   const auto add = [&](recording::Sample sample, Stamp now) {
     const bool admitted = check.admit(sample, now);
     std::ranges::move(check.take_warnings(), std::back_inserter(run.news));
@@ -48,13 +48,13 @@ Outcome outcome(Duration gps_ahead, double force_unit) {
 }
 
 TEST(SampleCheck, SoundSamplesAreAdmitted) {
-  const Outcome sound = outcome(Duration::zero(), 1.0);
+  const CheckedSamples sound = checked_samples(Duration::zero(), 1.0);
   EXPECT_THAT(sound.news, IsEmpty());
   EXPECT_EQ(sound.admitted_fixes, 300u);
 }
 
 TEST(SampleCheck, FindsWhatIsWrongWithClocksAndValues) {
-  const Outcome odd = outcome(std::chrono::seconds(18), 9.80665);
+  const CheckedSamples odd = checked_samples(std::chrono::seconds(18), 9.80665);
   EXPECT_THAT(odd.news, Contains(HasSubstr("its unit is g ")));
   EXPECT_THAT(odd.news, Contains(HasSubstr("18")));
   EXPECT_GT(odd.admitted_fixes, 200u);

@@ -13,14 +13,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
-
-agent::PerceptionConfig settings() {
-  agent::PerceptionConfig config;
-  config.odometry.T_base_lidar = testing::ScanOptions{}.T_base_lidar;
-  return config;
-}
-
 struct Outcome {
   OdometryRun run;
   std::vector<std::string> findings;
@@ -28,7 +20,7 @@ struct Outcome {
 
 /// 4 s of a drive whose points have their y axis multiplied by `mirror`.
 Outcome outcome(float mirror) {
-  ScanOdometry odometry(settings());
+  ScanOdometry odometry(made_robot_perception());
   SweepInputs inputs;
   for (SentSample& sent : samples_of_a_robot(1.5, 4.0, kStart)) {
     if (auto* scan = std::get_if<sensor::Scan>(&sent.sample)) {
@@ -56,7 +48,7 @@ TEST(ScanOdometry, NamesAMirroredLidarOnce) {
 }
 
 TEST(ScanOdometry, ScansThatCannotBeUsedAreNamedWithTheReason) {
-  ScanOdometry odometry(settings());
+  ScanOdometry odometry(made_robot_perception());
   EXPECT_THAT(odometry.run().failures(0), IsEmpty());
   sensor::Scan scan;
   scan.stamp = kStart;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fleetmap/output/trajectory_file.hpp"
+#include "store/items.hpp"
 #include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
-
-AgentId robot(const char* name) { return AgentId::parse(name).value(); }
 
 TEST(LostWays, AreASentenceWithBothCounts) {
   odometry::LoamCounters odometry;
@@ -35,7 +34,7 @@ class FleetReport : public ::testing::Test {
   FleetReport() {
     for (const char* name : {"r1", "r2"}) {
       auto& entry = outcome_.agents.emplace_back();
-      entry.id = robot(name);
+      entry.id = testing::agent(name);
       entry.results.emplace();
       std::filesystem::create_directories(folder_.path() / name);
       const output::Trajectory track{
@@ -62,8 +61,9 @@ TEST_F(FleetReport, TellsOfAMissionThatWasNotCompletedWhyAndWhichRows) {
   Completion& completion = outcome_.completion.emplace();
   completion.rows_driven = 120.5;
   completion.why_not = "two robots are not joined";
-  completion.abandoned = {
-      {7, robot("r1"), "a tree stands in it"}, {7, robot("r2"), ""}, {9, robot("r2"), ""}};
+  completion.abandoned = {{7, testing::agent("r1"), "a tree stands in it"},
+                          {7, testing::agent("r2"), ""},
+                          {9, testing::agent("r2"), ""}};
   const auto json = written()["completion"];
   EXPECT_EQ(json["mission_s"], 120.5);
   EXPECT_TRUE(json["aligned_s"].is_null());
@@ -75,7 +75,7 @@ TEST_F(FleetReport, TellsOfAMissionThatWasNotCompletedWhyAndWhichRows) {
 }
 
 TEST_F(FleetReport, TheBytesOfEachLinkAreThere) {
-  outcome_.links = {{robot("r1"), bus::Link::kLongRange, "fleetmap/node"}};
+  outcome_.links = {{testing::agent("r1"), bus::Link::kLongRange, "fleetmap/node"}};
   outcome_.links[0].copies = 3;
   outcome_.links[0].wire_bytes = 1410;
   outcome_.links[0].airtime = std::chrono::milliseconds(56);

@@ -5,20 +5,20 @@
 
 #include <sstream>
 
+#include "store/items.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-AgentId robot(const char* name) { return AgentId::parse(name).value(); }
-
 /// A lone robot that was switched off, and whose store held a map.
 class RunSummary : public ::testing::Test {
  protected:
   RunSummary() {
     auto& entry = outcome_.agents.emplace_back();
-    entry.id = robot("r1");
+    entry.id = testing::agent("r1");
     output::Results& results = entry.results.emplace();
     results.map.points = 1234;
     results.map.submaps = 5;
@@ -44,9 +44,9 @@ TEST_F(RunSummary, NamesTheMapOfEachRobotOrWhyThereIsNone) {
 TEST_F(RunSummary, NamesRobotsInQuarantineAndThoseThatContradictTheFleet) {
   EXPECT_THAT(printed(), Not(HasSubstr("quarantine")));
   output::Results& results = *outcome_.agents[0].results;
-  results.placement.alignment_stats[robot("r3")] = {0, 6, 2, true};
-  results.placement.alignment_stats[robot("r4")] = {6, 1, 0, false};
-  results.contradicting[robot("r5")] = {9, {robot("r1"), robot("r2")}, 0, 0};
+  results.placement.alignment_stats[testing::agent("r3")] = {0, 6, 2, true};
+  results.placement.alignment_stats[testing::agent("r4")] = {6, 1, 0, false};
+  results.contradicting[testing::agent("r5")] = {9, {testing::agent("r1"), testing::agent("r2")}, 0, 0};
   EXPECT_THAT(printed(), HasSubstr("r3 is in quarantine: 2 alignments that it computed are false"));
   EXPECT_THAT(printed(), Not(HasSubstr("r4")));
   EXPECT_THAT(printed(), HasSubstr("r5 contradicts the fleet: 9 alignments with r1, r2 are rejected"));
@@ -59,7 +59,7 @@ TEST_F(RunSummary, SaysWhenTheExchangeOrTheMissionDidNotEnd) {
   EXPECT_THAT(printed(), Not(HasSubstr("mission")));
   Completion& completion = outcome_.completion.emplace();
   completion.why_not = "r2 is not joined";
-  completion.abandoned = {{7, robot("r1"), ""}};
+  completion.abandoned = {{7, testing::agent("r1"), ""}};
   EXPECT_THAT(printed(), HasSubstr("row 7 was given up by r1: no robot was left to drive it\n"));
   EXPECT_THAT(printed(), HasSubstr("mission not completed: r2 is not joined\n"));
   completion.completed = 300.0;

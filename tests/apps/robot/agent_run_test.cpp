@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "apps/kitti_drive.hpp"
 #include "bus/dds_domains.hpp"
 #include "fleetmap/store/store.hpp"
 #include "support/command_line.hpp"
@@ -19,14 +20,13 @@
 namespace fleetmap {
 namespace {
 
-constexpr const char* kDrive = "kitti_raw_2011_09_26_drive_0005";
-constexpr auto kPatience = std::chrono::minutes(5);
+constexpr auto kMappedWithin = std::chrono::minutes(5);
 
 class AgentRun : public ::testing::Test {
  protected:
   void SetUp() override {
-    drive_ = testing::shared_data(kDrive);
-    if (!drive_) GTEST_SKIP() << "recording " << kDrive << " is not here";
+    drive_ = testing::shared_data(testing::kKittiDrive);
+    if (!drive_) GTEST_SKIP() << "recording " << testing::kKittiDrive << " is not here";
     write_config("r1", 0, "[0, 95]", 1);
     write_config("r2", 1, "[60, 153]", 2);
   }
@@ -99,7 +99,7 @@ TEST_F(AgentRun, KilledAgentResumesFromItsStoreAndTheMapsComeOutEqual) {
   auto r2 = agent("r2");
   auto play1 = replay("r1");
   auto play2 = replay("r2", "0.6");  // so that there is something left to hear after the kill
-  ASSERT_TRUE(testing::eventually([&] { return own_nodes("r2") >= 5; }, kPatience))
+  ASSERT_TRUE(testing::eventually([&] { return own_nodes("r2") >= 5; }, kMappedWithin))
       << r2->output() << play2->output();
   r2->signal(SIGKILL);
   EXPECT_EQ(r2->wait(), 128 + SIGKILL);

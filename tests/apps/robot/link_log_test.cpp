@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "apps/two_robots.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
@@ -13,8 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using namespace std::chrono_literals;
 
-const AgentId kR1 = AgentId::parse("r1").value(), kR2 = AgentId::parse("r2").value();
-constexpr Stamp kStart{1000s};
+constexpr Stamp kOpened{1000s};
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -41,9 +41,9 @@ class LinkLogTest : public ::testing::Test {
 };
 
 TEST_F(LinkLogTest, ARowIsOfOneSecondAndOneRobot) {
-  log_.add_traffic({traffic(bus::Link::kLongRange, 5, 1000)}, {}, kStart);  // since when is not known
-  log_.add_traffic({traffic(bus::Link::kLongRange, 5, 1250)}, {}, kStart + 1s);
-  log_.add_traffic({traffic(bus::Link::kLongRange, 9, 2500, 1)}, {}, kStart + 3s);
+  log_.add_traffic({traffic(bus::Link::kLongRange, 5, 1000)}, {}, kOpened);  // since when is not known
+  log_.add_traffic({traffic(bus::Link::kLongRange, 5, 1250)}, {}, kOpened + 1s);
+  log_.add_traffic({traffic(bus::Link::kLongRange, 9, 2500, 1)}, {}, kOpened + 3s);
   EXPECT_THAT(rows(), ElementsAre("1000.0,long_range,r2,r1,,20.0,0.0,10.0,5",
                                   "1001.0,long_range,r2,r1,,20.0,10.0,10.0,9"));
 }
@@ -52,52 +52,52 @@ TEST_F(LinkLogTest, ADelayIsOfMessagesThatCarryATime) {
   bus::HeardTraffic untimed = traffic(bus::Link::kLongRange, 5, 1250);
   untimed.timed = 0;
   untimed.delay = Duration::zero();
-  log_.add_traffic({}, {}, kStart);
-  log_.add_traffic({untimed}, {}, kStart + 1s);
+  log_.add_traffic({}, {}, kOpened);
+  log_.add_traffic({untimed}, {}, kOpened + 1s);
   EXPECT_THAT(rows(), ElementsAre("1000.0,long_range,r2,r1,,,0.0,10.0,5"));
 }
 
 TEST_F(LinkLogTest, CapacityOfTheLinkIsKnownWhileSubmapsFillIt) {
-  log_.add_traffic({}, {}, kStart);
-  log_.add_traffic({traffic(bus::Link::kShortRange, 100, 500'000)}, {kR2}, kStart + 1s);  // begun within it
-  log_.add_traffic({traffic(bus::Link::kShortRange, 200, 1'000'000)}, {kR2}, kStart + 2s);
+  log_.add_traffic({}, {}, kOpened);
+  log_.add_traffic({traffic(bus::Link::kShortRange, 100, 500'000)}, {kR2}, kOpened + 1s);  // begun within it
+  log_.add_traffic({traffic(bus::Link::kShortRange, 200, 1'000'000)}, {kR2}, kOpened + 2s);
   EXPECT_THAT(rows(), ElementsAre("1000.0,short_range,r2,r1,,20.0,0.0,4000.0,100",
                                   "1001.0,short_range,r2,r1,8000.0,20.0,0.0,8000.0,200"));
 }
 
 TEST_F(LinkLogTest, ARobotThatFallsSilentIsSaidToBeOutOfReachOnce) {
-  log_.add_traffic({}, {}, kStart);
-  log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125)}, {}, kStart + 1s);
-  for (int k = 2; k < 20; ++k) log_.add_traffic({}, {}, kStart + k * 1s);
+  log_.add_traffic({}, {}, kOpened);
+  log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125)}, {}, kOpened + 1s);
+  for (int k = 2; k < 20; ++k) log_.add_traffic({}, {}, kOpened + k * 1s);
   // The loss meanwhile is not counted again.
-  log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125, 60)}, {}, kStart + 20s);
+  log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125, 60)}, {}, kOpened + 20s);
   EXPECT_THAT(rows(), ElementsAre("1000.0,short_range,r2,r1,,20.0,0.0,1.0,1",
                                   "1001.0,short_range,r2,r1,,,100.0,0.0,0",
                                   "1019.0,short_range,r2,r1,,20.0,0.0,1.0,1"));
 }
 
 TEST_F(LinkLogTest, ARobotThatSaysHelloIsThere) {
-  log_.add_traffic({}, {}, kStart);
-  log_.add_traffic({traffic(bus::Link::kLongRange, 1, 125)}, {}, kStart + 1s);
+  log_.add_traffic({}, {}, kOpened);
+  log_.add_traffic({traffic(bus::Link::kLongRange, 1, 125)}, {}, kOpened + 1s);
   bus::HeardTraffic hello = traffic(bus::Link::kLongRange, 0, 0);
   hello.hellos = 1;
-  for (int k = 1; k < 10; ++k) log_.add_traffic({hello}, {}, kStart + k * 20s);
+  for (int k = 1; k < 10; ++k) log_.add_traffic({hello}, {}, kOpened + k * 20s);
   EXPECT_EQ(rows().size(), 1u);
-  log_.add_traffic({}, {}, kStart + 246s);
+  log_.add_traffic({}, {}, kOpened + 246s);
   EXPECT_THAT(rows(), ElementsAre(::testing::_, "1180.0,long_range,r2,r1,,,100.0,0.0,0"));
 }
 
 TEST_F(LinkLogTest, KeepsWhenARobotWasLastHeardOnEachLink) {
-  log_.add_traffic({}, {}, kStart);
+  log_.add_traffic({}, {}, kOpened);
   log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125), traffic(bus::Link::kLongRange, 1, 125)}, {},
-                   kStart + 1s);
-  log_.add_traffic({traffic(bus::Link::kLongRange, 1, 125)}, {}, kStart + 9s);
+                   kOpened + 1s);
+  log_.add_traffic({traffic(bus::Link::kLongRange, 1, 125)}, {}, kOpened + 9s);
   const auto& heard = log_.last_heard();
   ASSERT_EQ(heard.size(), 2u);
   const LinkLog::Heard near = heard.at({bus::Link::kShortRange, kR2});
-  EXPECT_EQ(near.at, kStart + 1s);
+  EXPECT_EQ(near.at, kOpened + 1s);
   EXPECT_TRUE(near.silent);
-  EXPECT_EQ(heard.at({bus::Link::kLongRange, kR2}).at, kStart + 9s);
+  EXPECT_EQ(heard.at({bus::Link::kLongRange, kR2}).at, kOpened + 9s);
   EXPECT_FALSE(heard.at({bus::Link::kLongRange, kR2}).silent);
 }
 
@@ -105,8 +105,8 @@ TEST_F(LinkLogTest, ALineThatWasCutOffIsEnded) {
   const auto file = folder_.path() / "link_trace.csv";
   std::ofstream(file, std::ios::app) << "1005.0,long_ra";
   LinkLog later = LinkLog::open(folder_.path(), kR1).value();
-  later.add_traffic({}, {}, kStart);
-  later.add_traffic({traffic(bus::Link::kLongRange, 5, 1250)}, {}, kStart + 1s);
+  later.add_traffic({}, {}, kOpened);
+  later.add_traffic({traffic(bus::Link::kLongRange, 5, 1250)}, {}, kOpened + 1s);
   EXPECT_THAT(rows(), ElementsAre("1005.0,long_ra", "1000.0,long_range,r2,r1,,20.0,0.0,10.0,5"));
 }
 
@@ -114,10 +114,10 @@ TEST_F(LinkLogTest, EachNodeIsWrittenOnceAndALaterStartGoesOn) {
   const NodeId first{kR1, 0}, second{kR2, 3};
   store::SeqSet nodes;
   nodes.insert(first.agent, first.seq);
-  log_.add_nodes(nodes, kStart);
+  log_.add_nodes(nodes, kOpened);
   nodes.insert(second.agent, second.seq);
-  log_.add_nodes(nodes, kStart + 1s);
-  log_.add_nodes(nodes, kStart + 2s);
+  log_.add_nodes(nodes, kOpened + 1s);
+  log_.add_nodes(nodes, kOpened + 2s);
   const auto file = folder_.path() / "node_times.csv";
   EXPECT_THAT(lines_of(file), ElementsAre("time_ns,node", "1000000000000," + to_string(first),
                                           "1001000000000," + to_string(second)));

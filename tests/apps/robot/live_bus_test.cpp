@@ -2,20 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include "store/items.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
-AgentId id(const std::string& name) { return AgentId::parse(name).value(); }
-
 TEST(LiveBus, ANameThatARobotHasIsNumbered) {
-  EXPECT_EQ(free_name("operator", {id("r1"), id("r2")}), id("operator"));
-  EXPECT_EQ(free_name("operator", {id("operator")}), id("op-1"));
-  EXPECT_EQ(free_name("check", {id("check"), id("ch-1"), id("ch-2")}), id("ch-3"));
+  EXPECT_EQ(free_name("operator", {testing::agent("r1"), testing::agent("r2")}), testing::agent("operator"));
+  EXPECT_EQ(free_name("operator", {testing::agent("operator")}), testing::agent("op-1"));
+  EXPECT_EQ(free_name("check", {testing::agent("check"), testing::agent("ch-1"), testing::agent("ch-2")}),
+            testing::agent("ch-3"));
 }
 
 TEST(LiveBus, ABusWithoutProfilesIsRefused) {
   bus::DdsBusConfig config;
-  config.agent = id("r1");
+  config.agent = testing::agent("r1");
   config.qos_directory = "no_such_folder";
   config.long_range.enabled = config.short_range.enabled = false;
   const auto bus = join_dds(config);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/two_robots.hpp"
 #include "fleetmap/core/time.hpp"
 
 namespace fleetmap::apps {
@@ -9,23 +10,23 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const AgentId kR2 = AgentId::parse("r2").value();
-constexpr Stamp kStart{1000s};
+constexpr Stamp kFirst{1000s};
 
 bus::TopicStats topic(const std::string& name, bus::Link link, std::uint64_t sent, std::uint64_t received) {
   return {name, link, sent, 100 * sent, received, 100 * received, 0};
 }
 
-bus::HeardTraffic heard(std::uint64_t messages, std::uint64_t bytes, std::uint64_t lost, Duration delay) {
+bus::HeardTraffic heard_traffic(std::uint64_t messages, std::uint64_t bytes, std::uint64_t lost,
+                                Duration delay) {
   return {bus::Link::kLongRange, kR2, messages, 0, bytes, lost, messages, delay};
 }
 
 TEST(RadioRates, TheLastSecondAgainstTheBudgetIsTheDifferenceOfTheCounters) {
   RadioRates rates;
-  const auto first = rates.add({{}, 5000, 50}, {heard(1, 700, 0, 1ms)}, kStart);
+  const auto first = rates.add({{}, 5000, 50}, {heard_traffic(1, 700, 0, 1ms)}, kFirst);
   EXPECT_EQ(first.sent, 0.0) << "since when these were counted is not known";
   EXPECT_EQ(first.received, 0.0);
-  const auto second = rates.add({{}, 5600, 50}, {heard(2, 500, 0, 1ms)}, kStart + 2s);
+  const auto second = rates.add({{}, 5600, 50}, {heard_traffic(2, 500, 0, 1ms)}, kFirst + 2s);
   EXPECT_DOUBLE_EQ(second.sent, 300.0);
   EXPECT_DOUBLE_EQ(second.received, 250.0);
 }
@@ -41,9 +42,9 @@ TEST(RadioRates, KindsAreThoseOfTheRadiosWithTheOverheadOfEachMessage) {
                          0,
                          50};
   };
-  rates.add(counters(10), {}, kStart);
+  rates.add(counters(10), {}, kFirst);
   EXPECT_EQ(rates.submap_rate(), 0.0);
-  const auto radio = rates.add(counters(20), {}, kStart + 5s);
+  const auto radio = rates.add(counters(20), {}, kFirst + 5s);
   ASSERT_EQ(radio.kinds.size(), 2u) << "no digest came or went";
   EXPECT_EQ(radio.kinds[0].kind, "node");
   EXPECT_EQ(radio.kinds[0].link, "long_range");
@@ -55,9 +56,9 @@ TEST(RadioRates, KindsAreThoseOfTheRadiosWithTheOverheadOfEachMessage) {
 
 TEST(RadioRates, LossAndDelayAreMeansOverTheMessagesOfTheWindow) {
   RadioRates rates;
-  rates.add({}, {heard(50, 99'999, 9, 1s)}, kStart);
-  rates.add({}, {heard(1, 200, 0, 10ms)}, kStart + 1s);
-  const auto radio = rates.add({}, {heard(3, 400, 4, 30ms)}, kStart + 2s);
+  rates.add({}, {heard_traffic(50, 99'999, 9, 1s)}, kFirst);
+  rates.add({}, {heard_traffic(1, 200, 0, 10ms)}, kFirst + 1s);
+  const auto radio = rates.add({}, {heard_traffic(3, 400, 4, 30ms)}, kFirst + 2s);
   ASSERT_EQ(radio.peers.size(), 1u);
   EXPECT_EQ(radio.peers[0].peer, kR2);
   EXPECT_DOUBLE_EQ(radio.peers[0].received, 300.0);
@@ -67,20 +68,20 @@ TEST(RadioRates, LossAndDelayAreMeansOverTheMessagesOfTheWindow) {
 
 TEST(RadioRates, ADelayIsOfMessagesThatCarryATime) {
   RadioRates rates;
-  bus::HeardTraffic some = heard(4, 400, 0, 30ms), none = heard(4, 400, 0, 0ms);
+  bus::HeardTraffic some = heard_traffic(4, 400, 0, 30ms), none = heard_traffic(4, 400, 0, 0ms);
   some.timed = 1;
   none.timed = 0;
-  rates.add({}, {}, kStart);
-  EXPECT_EQ(rates.add({}, {none}, kStart + 1s).peers.at(0).delay_s, std::nullopt);
-  EXPECT_NEAR(rates.add({}, {some}, kStart + 2s).peers.at(0).delay_s.value(), 0.03, 1e-9);
+  rates.add({}, {}, kFirst);
+  EXPECT_EQ(rates.add({}, {none}, kFirst + 1s).peers.at(0).delay_s, std::nullopt);
+  EXPECT_NEAR(rates.add({}, {some}, kFirst + 2s).peers.at(0).delay_s.value(), 0.03, 1e-9);
 }
 
 TEST(RadioRates, SamplesOlderThanTheWindowAreForgotten) {
   RadioRates rates;
-  rates.add({}, {}, kStart);
-  rates.add({}, {heard(1, 200, 0, 10ms)}, kStart + 1s);
+  rates.add({}, {}, kFirst);
+  rates.add({}, {heard_traffic(1, 200, 0, 10ms)}, kFirst + 1s);
   monitor::RadioNow radio;
-  for (int k = 2; k < 30; ++k) radio = rates.add({}, {}, kStart + k * 1s);
+  for (int k = 2; k < 30; ++k) radio = rates.add({}, {}, kFirst + k * 1s);
   EXPECT_TRUE(radio.peers.empty());
 }
 

@@ -8,7 +8,7 @@ namespace fleetmap::apps {
 namespace {
 
 /// Flat ground of 60 m x 60 m with three lanes of 40 m to the east, 4 m apart.
-std::shared_ptr<const sim::World> three_lanes() {
+std::shared_ptr<const sim::World> world_of_three_lanes() {
   sim::Mesh mesh;
   mesh.vertices = {{-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -31,7 +31,7 @@ output::Trajectory along(double y, double from, double to) {
 }
 
 TEST(ShareOfLanes, IsTheLengthThatSomeRobotDrove) {
-  const auto world = three_lanes();
+  const auto world = world_of_three_lanes();
   EXPECT_EQ(share_of_lanes_driven(*world, 1, {}), 0.0);
   EXPECT_NEAR(*share_of_lanes_driven(*world, 1, {along(0.3, -20.0, 20.0)}), 1.0 / 3.0, 0.01);
   EXPECT_NEAR(*share_of_lanes_driven(*world, 1, {along(0.3, 20.0, 0.0)}), 0.5 / 3.0, 0.01) << "either way";
@@ -41,7 +41,7 @@ TEST(ShareOfLanes, IsTheLengthThatSomeRobotDrove) {
 }
 
 TEST(ShareOfLanes, APoseIsOfTheNearestLaneWithinReach) {
-  const auto world = three_lanes();
+  const auto world = world_of_three_lanes();
   EXPECT_NEAR(*share_of_lanes_driven(*world, 1, {along(2.2, -20.0, 20.0)}), 1.0 / 3.0, 0.01);
   EXPECT_NEAR(*share_of_lanes_driven(*world, 1, {along(12.9, -20.0, 20.0)}), 1.0 / 3.0, 0.01);
   EXPECT_EQ(share_of_lanes_driven(*world, 1, {along(13.1, -20.0, 20.0)}), 0.0);
@@ -49,14 +49,14 @@ TEST(ShareOfLanes, APoseIsOfTheNearestLaneWithinReach) {
 }
 
 TEST(ShareOfLanes, OnlyTheLanesOfTheMissionCount) {
-  const auto world = three_lanes();
+  const auto world = world_of_three_lanes();
   const std::vector<output::Trajectory> outer{along(0.0, -20.0, 20.0), along(8.0, -20.0, 20.0)};
   EXPECT_NEAR(*share_of_lanes_driven(*world, 2, outer), 1.0, 0.01);
   EXPECT_NEAR(*share_of_lanes_driven(*world, 1, outer), 2.0 / 3.0, 0.01);
 }
 
 TEST(ShareOfLanes, AWorldWithoutLanesHasNone) {
-  sim::Mesh mesh = three_lanes()->mesh();
+  sim::Mesh mesh = world_of_three_lanes()->mesh();
   EXPECT_EQ(share_of_lanes_driven(*sim::World::create(mesh).value(), 1, {along(0.0, -20.0, 20.0)}),
             std::nullopt);
 }

@@ -11,13 +11,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const Stamp kStart = stamp_from_ns(1'000'000'000);
+const Stamp kTwinStart = stamp_from_ns(1'000'000'000);
 
 sim::RobotTwin twin_at(const Eigen::Vector2d& start, double yaw) {
   sim::RobotTwinConfig config = flat_site_robot();
   config.start = start;
   config.start_yaw = yaw;
-  return sim::RobotTwin::create(flat_site(), kFlatSiteOrigin, config, kStart).value();
+  return sim::RobotTwin::create(flat_site(), kFlatSiteOrigin, config, kTwinStart).value();
 }
 
 TEST(TwinTruth, ATrackHasAPoseEvery20Milliseconds) {

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::exchange {
+
+inline constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
+
+}  // namespace fleetmap::exchange
