@@ -5,10 +5,13 @@
 #include <limits>
 #include <string>
 
+#include "support/field_bounds.hpp"
+
 namespace fleetmap::localization {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using fleetmap::testing::kNaN;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The error is about the named field.
@@ -21,7 +24,7 @@ void expect_refused(const EkfConfig& config, const std::string& field) {
 TEST(EkfConfig, DefaultsAreValid) { EXPECT_TRUE(EkfConfig{}.validate()); }
 
 TEST(EkfConfig, WhatMustBePositiveIsFiniteAndAboveZero) {
-  for (const double wrong : {0.0, -1.0, kNaN, kInfinity}) {
+  for (const double wrong : {0.0, -1.0, kNaN<double>, kInfinity}) {
     EkfConfig config;
     config.imu.gyro_noise = wrong;
     expect_refused(config, "imu.gyro_noise");
@@ -45,7 +48,7 @@ TEST(EkfConfig, WhatMayBeZeroMayNotBeNegative) {
   config.imu.gyro_bias_walk = config.gps.correlation_time = config.wheel.turn_offset = 0.0;
   config.gps.correlated_share = config.max_lateness = config.max_extrapolation = 0.0;
   EXPECT_TRUE(config.validate());
-  for (const double wrong : {-1e-9, kNaN, kInfinity}) {
+  for (const double wrong : {-1e-9, kNaN<double>, kInfinity}) {
     config = {};
     config.gps.correlation_time = wrong;
     expect_refused(config, "gps.correlation_time");
@@ -76,7 +79,7 @@ TEST(EkfConfig, LimitsBetweenFieldsHold) {
 
 TEST(EkfConfig, GeometryIsChecked) {
   EkfConfig config;
-  config.mounting.T_base_imu.translation().y() = kNaN;
+  config.mounting.T_base_imu.translation().y() = kNaN<double>;
   expect_refused(config, "mounting.T_base_imu");
   config = {};
   config.mounting.p_base_antenna.z() = kInfinity;

@@ -4,12 +4,14 @@
 #include <limits>
 
 #include "localization/ekf_expectations.hpp"
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::localization {
 namespace {
 
+using fleetmap::testing::kNaN;
+
 using namespace testing;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(EkfFixes, WrongHemisphereFixesAreRefused) {
   const Drive drive(70.0);
@@ -65,7 +67,7 @@ TEST(EkfFixes, ConfiguredSiteNeverFollowsFixesFarAway) {
 
 TEST(EkfFixes, CovariancesThatSayNothingAreReplaced) {
   const Drive drive(70.0);
-  const Eigen::Matrix3d bad[] = {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Constant(kNaN),
+  const Eigen::Matrix3d bad[] = {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Constant(kNaN<double>),
                                  Eigen::Matrix3d(-Eigen::Matrix3d::Identity()),
                                  Eigen::Matrix3d::Constant(std::numeric_limits<double>::infinity()),
                                  Eigen::Matrix3d(Eigen::Matrix3d::Identity() * 1e300)};
@@ -103,7 +105,7 @@ TEST(EkfFixes, InvalidFixesAreRefusedAndCounted) {
     if (t <= 10.0) return;
     switch (n++ % 5) {
       case 0:
-        fix.position.latitude = kNaN;
+        fix.position.latitude = kNaN<double>;
         break;
       case 1:
         fix.position.altitude = std::numeric_limits<double>::infinity();

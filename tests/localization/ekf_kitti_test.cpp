@@ -46,7 +46,7 @@ struct Outcome {
   bool heading_known = false;
 };
 
-Outcome run(const std::vector<Oxts>& records, unsigned seed, bool orientation, bool imu) {
+Outcome run_on_records(const std::vector<Oxts>& records, unsigned seed, bool orientation, bool imu) {
   constexpr double kSigma = 1.5;  // m
   const double keep = std::exp(-0.1 / 60.0);
   std::mt19937 random(seed);
@@ -107,7 +107,7 @@ TEST_P(EkfOnKitti, ErrorIsWhatTheCovariancePromises) {
   double nees = 0.0;
   double yaw = 0.0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-    const Outcome outcome = run(records, seed, orientation, imu);
+    const Outcome outcome = run_on_records(records, seed, orientation, imu);
     ASSERT_TRUE(outcome.heading_known);
     EXPECT_LT(outcome.worst_horizontal, 1.5 * 4.5) << "seed " << seed;
     nees += outcome.nees_horizontal / kSeeds;

@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "localization/ekf_expectations.hpp"
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::localization {
 namespace {
 
+using fleetmap::testing::kNaN;
+
 using namespace testing;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Ekf, NoPoseBeforeTheFirstFixesAgree) {
   const Drive drive(3.0);
@@ -107,13 +108,13 @@ TEST(Ekf, GpsAloneGivesPositionsAndNoHeading) {
 
 TEST(Ekf, BadImuAndWheelValuesAreRefused) {
   Ekf ekf{EkfConfig{}};
-  sensor::Imu imu{at_time(1.0), {0, 0, kNaN}, {0, 0, 9.8}, {}, {}};
+  sensor::Imu imu{at_time(1.0), {0, 0, kNaN<double>}, {0, 0, 9.8}, {}, {}};
   EXPECT_FALSE(ekf.add(imu));
   imu.angular_velocity.setZero();
   imu.specific_force.x() = 1e30;
   EXPECT_FALSE(ekf.add(imu));
-  EXPECT_FALSE(ekf.add(sensor::Wheel{at_time(1.0), kNaN, {}}));
-  EXPECT_FALSE(ekf.add(sensor::Wheel{at_time(1.0), 1.0, kNaN}));
+  EXPECT_FALSE(ekf.add(sensor::Wheel{at_time(1.0), kNaN<double>, {}}));
+  EXPECT_FALSE(ekf.add(sensor::Wheel{at_time(1.0), 1.0, kNaN<double>}));
   EXPECT_EQ(ekf.counters().imu_bad_value, 2u);
   EXPECT_EQ(ekf.counters().wheel_bad_value, 2u);
   EXPECT_FALSE(ekf.pose());
@@ -251,7 +252,8 @@ TEST(EkfConfig, NamesTheFieldThatBreaksItsRule) {
   EXPECT_EQ(broken([](EkfConfig& c) { c.gps.correlated_share = 1.0; }), "gps.correlated_share");
   EXPECT_EQ(broken([](EkfConfig& c) { c.gps.initial_fixes = 0; }), "gps.initial_fixes");
   EXPECT_EQ(broken([](EkfConfig& c) { c.max_lateness = 9.0; }), "max_lateness");
-  EXPECT_EQ(broken([](EkfConfig& c) { c.mounting.p_base_antenna.x() = kNaN; }), "mounting.p_base_antenna");
+  EXPECT_EQ(broken([](EkfConfig& c) { c.mounting.p_base_antenna.x() = kNaN<double>; }),
+            "mounting.p_base_antenna");
   EXPECT_EQ(broken([](EkfConfig& c) { c.site_origin = GeoPoint{49.0, 8.4, 0.0}; }), "site_origin");
 }
 

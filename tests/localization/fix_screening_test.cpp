@@ -5,16 +5,19 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "support/field_bounds.hpp"
+
 namespace fleetmap::localization {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-const GeoPoint kSite = geo_point_from_degrees(48.0, 11.0, 500.0);
+using fleetmap::testing::kNaN;
 
-sensor::Fix fix_at(const Eigen::Vector3d& p_enu, double seconds = 0.0) {
+const GeoPoint kOrigin = geo_point_from_degrees(48.0, 11.0, 500.0);
+
+sensor::Fix plain_fix(const Eigen::Vector3d& p_enu, double seconds = 0.0) {
   sensor::Fix fix;
   fix.stamp = stamp_from_ns(static_cast<std::int64_t>(seconds * 1e9));
-  fix.position = LocalFrame(kSite).to_geo(p_enu);
+  fix.position = LocalFrame(kOrigin).to_geo(p_enu);
   return fix;
 }
 
@@ -44,7 +47,7 @@ TEST(FixScreening, EigenvaluesAreClampedToFloorAndCeiling) {
 TEST(FixScreening, AnUnusableCovarianceIsReplacedByTheDefault) {
   const GpsModel model;
   Eigen::Matrix3d with_nan = Eigen::Matrix3d::Identity();
-  with_nan(0, 2) = kNaN;
+  with_nan(0, 2) = kNaN<double>;
   Eigen::Matrix3d negative = Eigen::Matrix3d::Identity();
   negative(2, 2) = -1.0;
   for (const Eigen::Matrix3d& C :
@@ -60,12 +63,13 @@ TEST(FixScreening, AnUnusableCovarianceIsReplacedByTheDefault) {
 }
 
 TEST(FixScreening, OnlyFixesOnEarthAreUsable) {
-  EXPECT_TRUE(is_usable(fix_at({0, 0, 0})));
-  sensor::Fix none = fix_at({0, 0, 0});
+  EXPECT_TRUE(is_usable(plain_fix({0, 0, 0})));
+  sensor::Fix none = plain_fix({0, 0, 0});
   none.valid = false;
   EXPECT_FALSE(is_usable(none));
-  for (const GeoPoint& wrong : {GeoPoint{0.0, 0.0, 100.0}, GeoPoint{kNaN, 0.2, 0.0}, GeoPoint{0.8, 0.2, kNaN},
-                                GeoPoint{2.0, 0.2, 0.0}, GeoPoint{0.8, 0.2, 20'001.0}}) {
+  for (const GeoPoint& wrong :
+       {GeoPoint{0.0, 0.0, 100.0}, GeoPoint{kNaN<double>, 0.2, 0.0}, GeoPoint{0.8, 0.2, kNaN<double>},
+        GeoPoint{2.0, 0.2, 0.0}, GeoPoint{0.8, 0.2, 20'001.0}}) {
     sensor::Fix fix;
     fix.position = wrong;
     EXPECT_FALSE(is_usable(fix)) << wrong.latitude << " " << wrong.longitude << " " << wrong.altitude;
@@ -77,29 +81,29 @@ TEST(FixScreening, OnlyFixesOnEarthAreUsable) {
 
 TEST(FixScreening, ReachGrowsWithTimeAndUncertainty) {
   const GpsModel model;  // 40 m/s
-  const GeoPoint there = fix_at({100.0, 0.0, 0.0}).position;
-  EXPECT_FALSE(is_reachable(kSite, there, 1.0, 1.0, model));  // 40 + 6 + 10
-  EXPECT_TRUE(is_reachable(kSite, there, 2.5, 1.0, model));
-  EXPECT_TRUE(is_reachable(kSite, there, 0.0, 16.0, model));
-  EXPECT_FALSE(is_reachable(kSite, there, kNaN, 1.0, model));
-  const GeoPoint above = fix_at({0.0, 0.0, 100.0}).position;
-  EXPECT_FALSE(is_reachable(kSite, above, 0.0, 1.0, model));
-  EXPECT_TRUE(is_reachable(kSite, above, 0.0, 10.0, model));  // altitude errs four sigmas more
+  const GeoPoint there = plain_fix({100.0, 0.0, 0.0}).position;
+  EXPECT_FALSE(is_reachable(kOrigin, there, 1.0, 1.0, model));  // 40 + 6 + 10
+  EXPECT_TRUE(is_reachable(kOrigin, there, 2.5, 1.0, model));
+  EXPECT_TRUE(is_reachable(kOrigin, there, 0.0, 16.0, model));
+  EXPECT_FALSE(is_reachable(kOrigin, there, kNaN<double>, 1.0, model));
+  const GeoPoint above = plain_fix({0.0, 0.0, 100.0}).position;
+  EXPECT_FALSE(is_reachable(kOrigin, above, 0.0, 1.0, model));
+  EXPECT_TRUE(is_reachable(kOrigin, above, 0.0, 10.0, model));  // altitude errs four sigmas more
 }
 
 TEST(FixScreening, ARunCountsFixesThatAgreeAndStartsAgainAtOneThatDoesNot) {
   const GpsModel model;
   FixRun run;
-  extend_run(run, fix_at({0, 0, 0}, 10.0), 1.0, model);
-  extend_run(run, fix_at({5, 0, 0}, 11.0), 2.0, model);
-  extend_run(run, fix_at({9, 0, 0}, 12.0), 1.0, model);
+  extend_run(run, plain_fix({0, 0, 0}, 10.0), 1.0, model);
+  extend_run(run, plain_fix({5, 0, 0}, 11.0), 2.0, model);
+  extend_run(run, plain_fix({9, 0, 0}, 12.0), 1.0, model);
   EXPECT_EQ(run.count, 3);
-  EXPECT_EQ(run.first, fix_at({}, 10.0).stamp);
-  EXPECT_EQ(run.last, fix_at({}, 12.0).stamp);
-  extend_run(run, fix_at({900, 0, 0}, 13.0), 1.0, model);
+  EXPECT_EQ(run.first, plain_fix({}, 10.0).stamp);
+  EXPECT_EQ(run.last, plain_fix({}, 12.0).stamp);
+  extend_run(run, plain_fix({900, 0, 0}, 13.0), 1.0, model);
   EXPECT_EQ(run.count, 1);
-  EXPECT_EQ(run.first, fix_at({}, 13.0).stamp);
-  EXPECT_EQ(run.position, fix_at({900, 0, 0}).position);
+  EXPECT_EQ(run.first, plain_fix({}, 13.0).stamp);
+  EXPECT_EQ(run.position, plain_fix({900, 0, 0}).position);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "loop_closure/two_robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::loop_closure {
@@ -14,7 +15,6 @@ namespace {
 using testing::agent;
 
 constexpr double kCell = 25.0;  // m
-const AgentId kSelf = agent("a"), kPeer = agent("b");
 
 /// Nodes on Earth and without a fix, and pairs of them.
 class CandidateGridTest : public ::testing::Test {
@@ -32,7 +32,7 @@ class CandidateGridTest : public ::testing::Test {
     ASSERT_TRUE(nodes_.add(node));
   }
 
-  NodeIndex nodes_{kSelf, 15.0};
+  NodeIndex nodes_{kA, 15.0};
   CandidateGrid grid_{kCell, nodes_};
 };
 
@@ -46,10 +46,10 @@ TEST_F(CandidateGridTest, AllWhoseOwnNodeIsNearAreFound) {
     position.latitude += metres(random) / kMeanEarthRadius;
     position.longitude += metres(random) / (kMeanEarthRadius * std::cos(origin.latitude));
     // Two sessions, whose frames have nothing to do with each other.
-    const NodeId id{kSelf, first_seq(static_cast<std::uint16_t>(k % 2)) + k};
+    const NodeId id{kA, first_seq(static_cast<std::uint16_t>(k % 2)) + k};
     const Eigen::Vector3d p_odom(metres(random), metres(random), 0.1 * metres(random));
     add_node(id, p_odom, coin(random) < 0.5 ? std::optional(position) : std::nullopt);
-    grid_.add({id, {kPeer, k}});
+    grid_.add({id, {kB, k}});
   }
   std::size_t near = 0, found = 0;
   for (const auto& [node, entry] : nodes_.entries()) {
@@ -58,7 +58,7 @@ TEST_F(CandidateGridTest, AllWhoseOwnNodeIsNearAreFound) {
     for (const auto& [own, other] : nodes_.entries()) {
       if (!nodes_.near(own, node, kCell)) continue;
       ++near;
-      EXPECT_TRUE(around.contains({own, {kPeer, own.seq % kItemsPerSession}})) << to_string(own);
+      EXPECT_TRUE(around.contains({own, {kB, own.seq % kItemsPerSession}})) << to_string(own);
     }
   }
   EXPECT_GT(near, 2 * kNodes);
@@ -66,71 +66,70 @@ TEST_F(CandidateGridTest, AllWhoseOwnNodeIsNearAreFound) {
 }
 
 TEST_F(CandidateGridTest, CellsBelowZeroAreAsLargeAsOthers) {
-  add_node({kSelf, 0}, {-0.1, -0.1, -0.1});
-  add_node({kSelf, 1}, {14.0, 14.0, 14.0});
-  add_node({kSelf, 2}, {-25.05, 0.0, 0.0});
-  add_node({kSelf, 3}, {0.1, 0.1, 60.0});
-  const NodePair pair{{kSelf, 0}, {kPeer, 0}};
+  add_node({kA, 0}, {-0.1, -0.1, -0.1});
+  add_node({kA, 1}, {14.0, 14.0, 14.0});
+  add_node({kA, 2}, {-25.05, 0.0, 0.0});
+  add_node({kA, 3}, {0.1, 0.1, 60.0});
+  const NodePair pair{{kA, 0}, {kB, 0}};
   grid_.add(pair);
-  EXPECT_TRUE(grid_.around({kSelf, 1}).contains(pair));
-  EXPECT_TRUE(grid_.around({kSelf, 2}).contains(pair));
-  EXPECT_FALSE(grid_.around({kSelf, 3}).contains(pair)) << "three cells above";
-  add_node({kSelf, 4}, {25.1, -0.1, -0.1});
-  EXPECT_FALSE(grid_.around({kSelf, 4}).contains(pair)) << "two cells beside";
+  EXPECT_TRUE(grid_.around({kA, 1}).contains(pair));
+  EXPECT_TRUE(grid_.around({kA, 2}).contains(pair));
+  EXPECT_FALSE(grid_.around({kA, 3}).contains(pair)) << "three cells above";
+  add_node({kA, 4}, {25.1, -0.1, -0.1});
+  EXPECT_FALSE(grid_.around({kA, 4}).contains(pair)) << "two cells beside";
 }
 
 TEST_F(CandidateGridTest, TheDateLineAndThePolesAreNoBorders) {
   const double near_pole = 0.5 * std::numbers::pi - 5.0 / kMeanEarthRadius;
-  add_node({kSelf, 0}, {0.0, 0.0, 0.0}, GeoPoint{0.1, std::numbers::pi - 5.0 / kMeanEarthRadius, 0.0});
-  add_node({kPeer, 0}, {0.0, 0.0, 0.0}, GeoPoint{0.1, -std::numbers::pi + 5.0 / kMeanEarthRadius, 0.0});
-  add_node({kSelf, 1}, {0.0, 0.0, 0.0}, GeoPoint{near_pole, 0.0, 0.0});
-  add_node({kPeer, 1}, {0.0, 0.0, 0.0}, GeoPoint{near_pole, 3.0, 0.0});
-  for (const std::uint32_t seq : {0u, 1u}) grid_.add({{kSelf, seq}, {kPeer, seq}});
+  add_node({kA, 0}, {0.0, 0.0, 0.0}, GeoPoint{0.1, std::numbers::pi - 5.0 / kMeanEarthRadius, 0.0});
+  add_node({kB, 0}, {0.0, 0.0, 0.0}, GeoPoint{0.1, -std::numbers::pi + 5.0 / kMeanEarthRadius, 0.0});
+  add_node({kA, 1}, {0.0, 0.0, 0.0}, GeoPoint{near_pole, 0.0, 0.0});
+  add_node({kB, 1}, {0.0, 0.0, 0.0}, GeoPoint{near_pole, 3.0, 0.0});
+  for (const std::uint32_t seq : {0u, 1u}) grid_.add({{kA, seq}, {kB, seq}});
   for (const std::uint32_t seq : {0u, 1u})
-    EXPECT_EQ(grid_.around({kPeer, seq}), (std::set<NodePair>{NodePair{{kSelf, seq}, {kPeer, seq}}})) << seq;
+    EXPECT_EQ(grid_.around({kB, seq}), (std::set<NodePair>{NodePair{{kA, seq}, {kB, seq}}})) << seq;
 }
 
 TEST_F(CandidateGridTest, FramesOfOtherRobotsAndSessionsAreOtherPlaces) {
-  add_node({kSelf, 0}, {1.0, 1.0, 1.0});
-  add_node({kSelf, first_seq(1)}, {1.0, 1.0, 1.0});
-  add_node({kPeer, 0}, {1.0, 1.0, 1.0});
-  const NodePair pair{{kSelf, 0}, {kPeer, 9}};
+  add_node({kA, 0}, {1.0, 1.0, 1.0});
+  add_node({kA, first_seq(1)}, {1.0, 1.0, 1.0});
+  add_node({kB, 0}, {1.0, 1.0, 1.0});
+  const NodePair pair{{kA, 0}, {kB, 9}};
   grid_.add(pair);
-  EXPECT_TRUE(grid_.around({kSelf, 0}).contains(pair));
-  EXPECT_TRUE(grid_.around({kSelf, first_seq(1)}).empty());
-  EXPECT_TRUE(grid_.around({kPeer, 0}).empty());
-  EXPECT_TRUE(grid_.around({kPeer, 77}).empty()) << "an unknown node";
+  EXPECT_TRUE(grid_.around({kA, 0}).contains(pair));
+  EXPECT_TRUE(grid_.around({kA, first_seq(1)}).empty());
+  EXPECT_TRUE(grid_.around({kB, 0}).empty());
+  EXPECT_TRUE(grid_.around({kB, 77}).empty()) << "an unknown node";
 }
 
 TEST_F(CandidateGridTest, APairIsFoundOnceItsOwnNodeCame) {
-  const NodePair first{{kSelf, 3}, {kPeer, 0}}, second{{kSelf, 3}, {kPeer, 8}}, other{{kSelf, 4}, {kPeer, 0}};
+  const NodePair first{{kA, 3}, {kB, 0}}, second{{kA, 3}, {kB, 8}}, other{{kA, 4}, {kB, 0}};
   for (const NodePair& pair : {second, first, other}) grid_.add(pair);
-  add_node({kSelf, 2}, {0.0, 0.0, 0.0});
-  EXPECT_TRUE(grid_.around({kSelf, 2}).empty());
-  add_node({kSelf, 3}, {1.0, 0.0, 0.0});
-  add_node({kSelf, 4}, {2.0, 0.0, 0.0});
-  grid_.on_node({kSelf, 3});
-  EXPECT_EQ(grid_.around({kSelf, 2}), (std::set<NodePair>{first, second}));
-  grid_.on_node({kSelf, 3});
-  grid_.on_node({kSelf, 4});
-  EXPECT_EQ(grid_.around({kSelf, 2}), (std::set<NodePair>{first, second, other}));
+  add_node({kA, 2}, {0.0, 0.0, 0.0});
+  EXPECT_TRUE(grid_.around({kA, 2}).empty());
+  add_node({kA, 3}, {1.0, 0.0, 0.0});
+  add_node({kA, 4}, {2.0, 0.0, 0.0});
+  grid_.on_node({kA, 3});
+  EXPECT_EQ(grid_.around({kA, 2}), (std::set<NodePair>{first, second}));
+  grid_.on_node({kA, 3});
+  grid_.on_node({kA, 4});
+  EXPECT_EQ(grid_.around({kA, 2}), (std::set<NodePair>{first, second, other}));
 }
 
 TEST_F(CandidateGridTest, ErasedPairsAreNotFound) {
   const GeoPoint position = geo_point_from_degrees(49.0, 8.4, 110.0);
-  add_node({kSelf, 0}, {0.0, 0.0, 0.0}, position);
-  const NodePair first{{kSelf, 0}, {kPeer, 0}}, second{{kSelf, 0}, {kPeer, 1}},
-      waiting{{kSelf, 1}, {kPeer, 0}};
+  add_node({kA, 0}, {0.0, 0.0, 0.0}, position);
+  const NodePair first{{kA, 0}, {kB, 0}}, second{{kA, 0}, {kB, 1}}, waiting{{kA, 1}, {kB, 0}};
   for (const NodePair& pair : {first, second, waiting}) grid_.add(pair);
   grid_.erase(first);
   grid_.erase(first);
   grid_.erase(waiting);
-  EXPECT_EQ(grid_.around({kSelf, 0}), (std::set<NodePair>{second}));
-  add_node({kSelf, 1}, {0.0, 0.0, 0.0}, position);
-  grid_.on_node({kSelf, 1});
-  EXPECT_EQ(grid_.around({kSelf, 1}), (std::set<NodePair>{second}));
+  EXPECT_EQ(grid_.around({kA, 0}), (std::set<NodePair>{second}));
+  add_node({kA, 1}, {0.0, 0.0, 0.0}, position);
+  grid_.on_node({kA, 1});
+  EXPECT_EQ(grid_.around({kA, 1}), (std::set<NodePair>{second}));
   grid_.add(first);
-  EXPECT_EQ(grid_.around({kSelf, 0}), (std::set<NodePair>{first, second}));
+  EXPECT_EQ(grid_.around({kA, 0}), (std::set<NodePair>{first, second}));
 }
 
 }  // namespace

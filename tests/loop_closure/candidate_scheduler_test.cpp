@@ -6,6 +6,8 @@
 #include <memory>
 #include <set>
 
+#include "loop_closure/located_nodes.hpp"
+#include "loop_closure/received_pairs.hpp"
 #include "loop_closure/two_robots.hpp"
 #include "store/items.hpp"
 #include "support/walled_site.hpp"
@@ -15,13 +17,6 @@ namespace {
 
 using testing::agent;
 using testing::node_at_walls;
-
-/// Search radius r_min = 20 m.
-graph::Node node_at(const AgentId& agent, std::uint32_t seq, double east_m) {
-  auto node = testing::make_node(agent, seq, Bytes{}, east_m);
-  node.G->covariance = 0.01 * Matrix6d::Identity();
-  return node;
-}
 
 CandidateConfig at_once() {
   CandidateConfig config;
@@ -33,14 +28,6 @@ std::vector<NodeId> wanted(const exchange::CloudDemand& due) {
   std::vector<NodeId> nodes;
   for (const auto& [node, information] : due.wanted) nodes.push_back(node);
   return nodes;
-}
-
-/// The pairs that the cloud of `theirs` starts to register.
-std::vector<NodePair> on_cloud(CandidateScheduler& scheduler, const NodeId& theirs) {
-  std::vector<NodePair> pairs;
-  scheduler.on_cloud(theirs, Bytes(1, 1));
-  for (const ReceivedCloud& received : scheduler.take_received()) pairs.push_back(received.candidate.pair());
-  return pairs;
 }
 
 NodePair mirrored(const NodePair& pair) { return {pair.theirs, pair.ours}; }

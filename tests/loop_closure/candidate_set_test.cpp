@@ -9,7 +9,6 @@ namespace fleetmap::loop_closure {
 namespace {
 
 using testing::agent;
-using Origin = LoopCandidate::Origin;
 
 /// Nodes of a and of b every 2 m, the same places.
 class CandidateSetTest : public ::testing::Test {
@@ -24,10 +23,10 @@ class CandidateSetTest : public ::testing::Test {
     }
   }
   static LoopCandidate candidate(std::uint32_t ours, std::uint32_t theirs, double distance) {
-    return {{agent("a"), ours}, {agent("b"), theirs}, Origin::kPosition, distance, 20.0};
+    return {{agent("a"), ours}, {agent("b"), theirs}, LoopCandidate::Origin::kPosition, distance, 20.0};
   }
   static LoopCandidate match(std::uint32_t seq, double score) {
-    return {{agent("a"), seq}, {agent("b"), seq}, Origin::kDescriptor, 1.0, 30.0, score};
+    return {{agent("a"), seq}, {agent("b"), seq}, LoopCandidate::Origin::kDescriptor, 1.0, 30.0, score};
   }
 
   CandidateConfig config_;
@@ -136,7 +135,7 @@ TEST_F(CandidateSetTest, AnAbandonedOneIsBackOnceTheRedundancyIsGone) {
   const NodePair once = candidate(0, 0, 1.0).pair(), twice = candidate(2, 2, 1.0).pair(),
                  spent = candidate(30, 30, 1.0).pair();
   for (const NodePair& pair : {once, twice, spent}) {
-    set_.add({pair.ours, pair.theirs, Origin::kPosition, 1.0, 20.0}, kStart, true);
+    set_.add({pair.ours, pair.theirs, LoopCandidate::Origin::kPosition, 1.0, 20.0}, kStart, true);
     set_.at(pair).phase = CandidateSet::Phase::kFailed;
     set_.at(pair).attempts = pair == once ? 1 : config_.max_attempts;
   }

@@ -4,15 +4,13 @@
 
 #include <set>
 
+#include "loop_closure/own_sessions.hpp"
 #include "loop_closure/two_robots.hpp"
 #include "registration_prior.hpp"
 #include "support/walled_site.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
-
-const AgentId kSelf = *AgentId::parse("r1");
-const GeoPoint kOrigin = geo_point_from_degrees(39.0, -3.0, 600.0);
 
 Pose true_pose_of(std::uint32_t seq, bool second) {
   return second ? pose(60.0 - 10.0 * seq, 2.0, 3.1) : pose(-60.0 + 10.0 * seq, 0.0, 0.0);

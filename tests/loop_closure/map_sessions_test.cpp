@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/cloud/codec.hpp"
+#include "loop_closure/own_sessions.hpp"
 #include "loop_closure/two_robots.hpp"
 #include "registration/made_world.hpp"
 #include "support/temporary_folder.hpp"
@@ -11,8 +12,6 @@ namespace fleetmap::loop_closure {
 namespace {
 
 using registration::testing::error_between;
-
-const GeoPoint kOrigin = geo_point_from_degrees(39.0, -3.0, 600.0);
 
 /// A robot drives through a made-up place twice; GPS of the second day is off.
 class MapSessionAlignmentTest : public ::testing::Test {

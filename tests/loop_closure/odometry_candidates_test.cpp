@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "loop_closure/own_sessions.hpp"
+
 namespace fleetmap::loop_closure {
 namespace {
 
-const AgentId kSelf = *AgentId::parse("r1");
-
-graph::Node node_at(std::uint32_t seq, double x, double y, std::uint16_t session = 0) {
+graph::Node odometry_node(std::uint32_t seq, double x, double y, std::uint16_t session = 0) {
   graph::Node node;
   node.id = {kSelf, seq};
   node.session = session;
@@ -21,7 +21,7 @@ std::vector<LoopCandidate> candidates_of_two_lanes(OdometryCandidates& candidate
   std::vector<LoopCandidate> found;
   std::uint32_t seq = 0;
   const auto offer = [&](double x, double y) {
-    if (auto candidate = candidates.propose(node_at(seq++, x, y))) found.push_back(*candidate);
+    if (auto candidate = candidates.propose(odometry_node(seq++, x, y))) found.push_back(*candidate);
   };
   for (int k = 0; k <= 25; ++k) offer(4.0 * k, 0.0);
   for (int k = 25; k >= 0; --k) offer(4.0 * k, pitch);
@@ -74,9 +74,9 @@ TEST(OdometryCandidates, UncertaintyGrowsAlongThePathAndAcrossByTheHeading) {
 
 TEST(OdometryCandidates, DoNotReachIntoAnotherOdometryFrame) {
   OdometryCandidates candidates(OwnPathConfig{});
-  for (std::uint32_t k = 0; k <= 25; ++k) EXPECT_FALSE(candidates.propose(node_at(k, 4.0 * k, 0.0)));
+  for (std::uint32_t k = 0; k <= 25; ++k) EXPECT_FALSE(candidates.propose(odometry_node(k, 4.0 * k, 0.0)));
   for (std::uint32_t k = 0; k <= 25; ++k) {
-    EXPECT_FALSE(candidates.propose(node_at(26 + k, 100.0 - 4.0 * k, 5.0, 1)));
+    EXPECT_FALSE(candidates.propose(odometry_node(26 + k, 100.0 - 4.0 * k, 5.0, 1)));
   }
 }
 

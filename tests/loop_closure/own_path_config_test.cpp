@@ -12,22 +12,22 @@ using fleetmap::testing::expect_refused;
 using fleetmap::testing::kInfinity;
 using fleetmap::testing::kNaN;
 
-using Config = OwnPathConfig;
-
-TEST(OwnPathConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
+TEST(OwnPathConfig, DefaultsAreValid) { EXPECT_TRUE(OwnPathConfig{}.validate()); }
 
 TEST(OwnPathConfig, TheReachIsPositiveAndThePathTwiceAsLong) {
-  const Config config;
-  expect_accepted(config, &Config::reach, {1e-3, 0.5 * config.min_path});
-  expect_refused(config, &Config::reach, {0.0, -1.0, kNaN<double>, kInfinity<double>}, "own_path.reach");
-  expect_refused(config, &Config::reach, {0.5 * config.min_path + 0.1}, "own_path.min_path");
-  expect_refused(config, &Config::min_path, {2.0 * config.reach - 0.1, kNaN<double>, kInfinity<double>},
-                 "own_path.min_path");
+  const OwnPathConfig config;
+  expect_accepted(config, &OwnPathConfig::reach, {1e-3, 0.5 * config.min_path});
+  expect_refused(config, &OwnPathConfig::reach, {0.0, -1.0, kNaN<double>, kInfinity<double>},
+                 "own_path.reach");
+  expect_refused(config, &OwnPathConfig::reach, {0.5 * config.min_path + 0.1}, "own_path.min_path");
+  expect_refused(config, &OwnPathConfig::min_path,
+                 {2.0 * config.reach - 0.1, kNaN<double>, kInfinity<double>}, "own_path.min_path");
 }
 
 TEST(OwnPathConfig, TheSpacingIsFiniteAndNotNegative) {
-  expect_accepted(Config{}, &Config::spacing, {0.0});
-  expect_refused(Config{}, &Config::spacing, {-0.1, kNaN<double>, kInfinity<double>}, "own_path.spacing");
+  expect_accepted(OwnPathConfig{}, &OwnPathConfig::spacing, {0.0});
+  expect_refused(OwnPathConfig{}, &OwnPathConfig::spacing, {-0.1, kNaN<double>, kInfinity<double>},
+                 "own_path.spacing");
 }
 
 }  // namespace

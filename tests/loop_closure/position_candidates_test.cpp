@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "loop_closure/located_nodes.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::loop_closure {
@@ -9,21 +10,14 @@ namespace {
 
 using testing::agent;
 
-/// Search radius r_min = 20 m.
-graph::Node node_at(const char* name, std::uint32_t seq, double east_m) {
-  auto node = testing::make_node(agent(name), seq, Bytes{}, east_m);
-  node.G->covariance = 0.01 * Matrix6d::Identity();
-  return node;
-}
-
 TEST(PositionCandidates, AnOwnNodeIsPairedWithTheNearestOfEachPeer) {
   PositionCandidates candidates(agent("a"), {});
   for (const char* peer : {"b", "c"}) {
-    EXPECT_TRUE(candidates.propose(node_at(peer, 0, 0.0)).empty());
-    EXPECT_TRUE(candidates.propose(node_at(peer, 1, 5.0)).empty());
+    EXPECT_TRUE(candidates.propose(node_at(agent(peer), 0, 0.0)).empty());
+    EXPECT_TRUE(candidates.propose(node_at(agent(peer), 1, 5.0)).empty());
   }
-  EXPECT_TRUE(candidates.propose(node_at("d", 0, 100.0)).empty());
-  const auto found = candidates.propose(node_at("a", 0, 8.0));
+  EXPECT_TRUE(candidates.propose(node_at(agent("d"), 0, 100.0)).empty());
+  const auto found = candidates.propose(node_at(agent("a"), 0, 8.0));
   ASSERT_EQ(found.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(found[k].target, (NodeId{agent("a"), 0}));
@@ -35,9 +29,9 @@ TEST(PositionCandidates, AnOwnNodeIsPairedWithTheNearestOfEachPeer) {
 
 TEST(PositionCandidates, APeersNodeIsPairedWithOursAlone) {
   PositionCandidates candidates(agent("a"), {});
-  candidates.propose(node_at("c", 0, 0.0));
-  candidates.propose(node_at("a", 3, 4.0));
-  const auto found = candidates.propose(node_at("b", 7, 1.0));
+  candidates.propose(node_at(agent("c"), 0, 0.0));
+  candidates.propose(node_at(agent("a"), 3, 4.0));
+  const auto found = candidates.propose(node_at(agent("b"), 7, 1.0));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].pair(), (NodePair{{agent("a"), 3}, {agent("b"), 7}}));
 }

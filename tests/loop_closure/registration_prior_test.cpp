@@ -7,12 +7,10 @@
 namespace fleetmap::loop_closure {
 namespace {
 
-using Origin = LoopCandidate::Origin;
-
-const NodeId kA{AgentId::parse("r1").value(), 0}, kB{AgentId::parse("r2").value(), 0};
+const NodeId kTarget{AgentId::parse("r1").value(), 0}, kSource{AgentId::parse("r2").value(), 0};
 
 /// At x metres east, with a variance of `variance` m^2 and rad^2 / 100 of yaw.
-graph::Node node_at(const NodeId& id, double x, double variance) {
+graph::Node node_of_variance(const NodeId& id, double x, double variance) {
   graph::Node node;
   node.id = id;
   node.G.emplace();
@@ -22,24 +20,24 @@ graph::Node node_at(const NodeId& id, double x, double variance) {
 }
 
 TEST(RegistrationPrior, PriorOfPositionsIsTheDifferenceOfBothGlobalPoses) {
-  graph::Node a = node_at(kA, 0.0, 1.0);
-  const graph::Node b = node_at(kB, 10.0, 3.0);
+  graph::Node a = node_of_variance(kTarget, 0.0, 1.0);
+  const graph::Node b = node_of_variance(kSource, 10.0, 3.0);
   a.G->q_enu_base = Eigen::Quaterniond(rotation_from_rpy(0, 0, 1.5707963267948966));
   const registration::Prior prior = position_prior(*a.G, *b.G);
   EXPECT_TRUE(prior.T_target_source.translation().isApprox(Eigen::Vector3d(0, -10, 0), 1e-3));
   EXPECT_NEAR(prior.sigma_yaw_rad, 0.2, 1e-9);
   EXPECT_NEAR(prior.sigma_translation_m, std::sqrt(4.0 + 4.0), 1e-3) << "10 m swung by 0.2 rad are 2 m";
-  const auto same = registration_prior({kA, kB}, a, b, {});
+  const auto same = registration_prior({kTarget, kSource}, a, b, {});
   ASSERT_TRUE(same);
   EXPECT_TRUE(same->T_target_source.matrix() == prior.T_target_source.matrix());
 }
 
 TEST(RegistrationPrior, PriorOfATransformIsWiderThanThatOfOdometry) {
-  LoopCandidate candidate{kA, kB, Origin::kTransform};
+  LoopCandidate candidate{kTarget, kSource, LoopCandidate::Origin::kTransform};
   candidate.T_target_source = UncertainPose{Pose::Identity(), 1e-4 * Matrix6d::Identity()};
-  const graph::Node a = node_at(kA, 0.0, 1.0), b = node_at(kB, 10.0, 1.0);
+  const graph::Node a = node_of_variance(kTarget, 0.0, 1.0), b = node_of_variance(kSource, 10.0, 1.0);
   const auto transform = registration_prior(candidate, a, b, {});
-  candidate.origin = Origin::kOdometry;
+  candidate.origin = LoopCandidate::Origin::kOdometry;
   const auto odometry = registration_prior(candidate, a, b, {});
   ASSERT_TRUE(transform && odometry);
   EXPECT_EQ(transform->T_target_source.translation().norm(), 0.0) << "its own, and not that of G";
@@ -48,9 +46,9 @@ TEST(RegistrationPrior, PriorOfATransformIsWiderThanThatOfOdometry) {
 }
 
 TEST(RegistrationPrior, IsNoneWithoutGAndDescriptors) {
-  graph::Node a = node_at(kA, 0.0, 1.0), b = node_at(kB, 10.0, 1.0);
+  graph::Node a = node_of_variance(kTarget, 0.0, 1.0), b = node_of_variance(kSource, 10.0, 1.0);
   b.G->covariance *= 1e6;
-  EXPECT_FALSE(registration_prior({kA, kB}, a, b, {}));
+  EXPECT_FALSE(registration_prior({kTarget, kSource}, a, b, {}));
 }
 
 }  // namespace

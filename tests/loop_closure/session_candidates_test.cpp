@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "loop_closure/own_sessions.hpp"
 #include "loop_closure/two_robots.hpp"
 #include "registration_prior.hpp"
 #include "support/walled_site.hpp"
@@ -12,9 +13,6 @@ namespace fleetmap::loop_closure {
 namespace {
 
 using testing::node_at_walls;
-
-const AgentId kSelf = *AgentId::parse("r1");
-const GeoPoint kOrigin = geo_point_from_degrees(39.0, -3.0, 600.0);
 
 /// East along y = 0 in the first session; the second begins 40 m on and drives back, 2 m beside.
 graph::Node of_first(std::uint32_t seq) {

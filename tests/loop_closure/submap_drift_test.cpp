@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "loop_closure/own_sessions.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
 
-const AgentId kSelf = *AgentId::parse("r1");
 const AgentId kOther = *AgentId::parse("r2");
 
 class SubmapDrift : public ::testing::Test {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
+#include "loop_closure/received_pairs.hpp"
 #include "loop_closure/two_robots.hpp"
 #include "store/items.hpp"
 #include "support/walled_site.hpp"
@@ -41,7 +42,7 @@ std::vector<graph::Alignment> ties(std::uint32_t first, const Pose& T_site_other
   return used;
 }
 
-CandidateConfig at_once() {
+CandidateConfig all_at_once() {
   CandidateConfig config;
   config.min_nodes_after = 0;
   config.max_wait = Duration::zero();
@@ -49,16 +50,8 @@ CandidateConfig at_once() {
   return config;
 }
 
-/// The pairs that the cloud of `theirs` starts to register.
-std::vector<NodePair> on_cloud(CandidateScheduler& scheduler, const NodeId& theirs) {
-  std::vector<NodePair> pairs;
-  scheduler.on_cloud(theirs, Bytes(1, 1));
-  for (const ReceivedCloud& received : scheduler.take_received()) pairs.push_back(received.candidate.pair());
-  return pairs;
-}
-
 /// The clouds requested once everything searchable has been searched.
-std::vector<NodeId> wanted(CandidateScheduler& a) {
+std::vector<NodeId> wanted_in_time(CandidateScheduler& a) {
   std::vector<NodeId> all;
   for (int tick = 0; tick < 20; ++tick) {
     for (const auto& [id, information] : a.tick(kStart).wanted) all.push_back(id);
@@ -74,14 +67,14 @@ void add_nodes(CandidateScheduler& a, std::uint32_t first, std::uint32_t end) {
 }
 
 TEST(TransformCandidates, AreFoundByWhereTheFramesLieAlsoAtPlacesOfBefore) {
-  CandidateScheduler a(kA, at_once());
+  CandidateScheduler a(kA, all_at_once());
   a.on_heard(kB, kStart);
   add_nodes(a, 0, 12);
   EXPECT_TRUE(a.tick(kStart).wanted.empty());
   EXPECT_FALSE(a.transform({{kA, 1}, {kB, 1}}));
   a.on_used_alignments(ties(0));
   EXPECT_FALSE(a.idle(kStart)) << "all places of before are to be searched";
-  const auto before = wanted(a);
+  const auto before = wanted_in_time(a);
   EXPECT_GE(before.size(), 4u);  // 60 m, 10 m apart
   for (const NodeId& id : before) {
     const auto pairs = on_cloud(a, id);
@@ -93,7 +86,7 @@ TEST(TransformCandidates, AreFoundByWhereTheFramesLieAlsoAtPlacesOfBefore) {
     EXPECT_LT(se3_log(truth.inverse() * T->T_a_b).norm(), 1e-9);
   }
   add_nodes(a, 12, 20);
-  const auto after = wanted(a);
+  const auto after = wanted_in_time(a);
   EXPECT_GE(after.size(), 2u);
   for (const NodeId& id : after) EXPECT_GE(id.seq, 12u);
   EXPECT_EQ(a.stats().by_descriptor, 0u);
@@ -101,12 +94,12 @@ TEST(TransformCandidates, AreFoundByWhereTheFramesLieAlsoAtPlacesOfBefore) {
   EXPECT_GE(a.stats().by_transform, 6u);
   // Nothing new: the same ties again begin nothing.
   a.on_used_alignments(ties(0));
-  EXPECT_TRUE(wanted(a).empty());
+  EXPECT_TRUE(wanted_in_time(a).empty());
 }
 
 TEST(TransformCandidates, BothEndsChooseTheSamePairs) {
-  CandidateScheduler a(kA, at_once());
-  CandidateScheduler b(kB, at_once());
+  CandidateScheduler a(kA, all_at_once());
+  CandidateScheduler b(kB, all_at_once());
   a.on_heard(kB, kStart);
   b.on_heard(kA, kStart);
   std::set<NodePair> of_a, of_b;  // as a sees them
@@ -135,7 +128,7 @@ TEST(TransformCandidates, BothEndsChooseTheSamePairs) {
 }
 
 TEST(TransformCandidates, UsesGWhereBothNodesHaveIt) {
-  CandidateScheduler a(kA, at_once());
+  CandidateScheduler a(kA, all_at_once());
   a.on_heard(kB, kStart);
   for (std::uint32_t seq = 0; seq < 4; ++seq) {
     for (const AgentId& agent : {kA, kB}) {
@@ -156,14 +149,14 @@ TEST(TransformCandidates, UsesGWhereBothNodesHaveIt) {
 }
 
 TEST(TransformCandidates, TransformsThatFailAgainAndAgainAreDistrustedUntilOneIsRight) {
-  CandidateConfig config = at_once();
+  CandidateConfig config = all_at_once();
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
   add_nodes(a, 0, 60);
   a.on_used_alignments(ties(0));
   std::size_t rejected = 0;
   NodePair last;
-  const auto begun = wanted(a);
+  const auto begun = wanted_in_time(a);
   for (const NodeId& id : begun) {
     for (const NodePair& pair : on_cloud(a, id)) {
       EXPECT_EQ(a.transform(pair).has_value(), rejected < 5);
@@ -175,22 +168,22 @@ TEST(TransformCandidates, TransformsThatFailAgainAndAgainAreDistrustedUntilOneIs
   ASSERT_GE(rejected, 6u);
   add_nodes(a, 60, 70);
   a.on_used_alignments(ties(0));
-  EXPECT_TRUE(wanted(a).empty());
+  EXPECT_TRUE(wanted_in_time(a).empty());
   // One that was found otherwise and accepted: what was made in the meantime is searched.
   a.on_alignment(testing::make_alignment(last.ours, last.theirs, kA, 0), kStart);
   EXPECT_TRUE(a.transform(last));
   a.on_used_alignments(ties(0));
-  const auto again = wanted(a);
+  const auto again = wanted_in_time(a);
   EXPECT_TRUE(std::ranges::any_of(again, [](const NodeId& id) { return id.seq >= 62; }));
 }
 
 TEST(TransformCandidates, OtherTiesThanBeforeAreBelievedAnew) {
-  CandidateScheduler a(kA, at_once());
+  CandidateScheduler a(kA, all_at_once());
   a.on_heard(kB, kStart);
   add_nodes(a, 0, 60);
   // As if b were 40 m farther: what is paired is not what is abreast.
   a.on_used_alignments(ties(0, pose(40.0, 0.0, 0.0)));
-  for (const NodeId& id : wanted(a)) {
+  for (const NodeId& id : wanted_in_time(a)) {
     for (const NodePair& pair : on_cloud(a, id)) {
       EXPECT_NE(pair.ours.seq, pair.theirs.seq);
       a.on_rejected(pair, kStart);
@@ -199,30 +192,30 @@ TEST(TransformCandidates, OtherTiesThanBeforeAreBelievedAnew) {
   EXPECT_FALSE(a.transform({{kA, 50}, {kB, 50}})) << "distrusted by now";
   a.on_used_alignments(ties(0));
   std::size_t abreast = 0;
-  for (const NodeId& id : wanted(a)) {
+  for (const NodeId& id : wanted_in_time(a)) {
     for (const NodePair& pair : on_cloud(a, id)) abreast += pair.ours.seq == pair.theirs.seq;
   }
   EXPECT_GE(abreast, 5u);
 }
 
 TEST(TransformCandidates, BehindAGapAreFoundWhenTheMissingNodeComes) {
-  CandidateScheduler a(kA, at_once());
+  CandidateScheduler a(kA, all_at_once());
   a.on_heard(kB, kStart);
   add_nodes(a, 0, 3);
   a.on_used_alignments(ties(0));
-  EXPECT_FALSE(wanted(a).empty());
+  EXPECT_FALSE(wanted_in_time(a).empty());
   for (std::uint32_t seq = 3; seq < 40; ++seq) {
     a.on_node(node(kA, seq), kStart);
     if (seq != 12) a.on_node(node(kB, seq), kStart);
   }
   const auto beyond = [](const NodeId& id) { return id.seq > 12; };
-  EXPECT_TRUE(std::ranges::none_of(wanted(a), beyond));
+  EXPECT_TRUE(std::ranges::none_of(wanted_in_time(a), beyond));
   a.on_node(node(kB, 12), kStart);
-  EXPECT_TRUE(std::ranges::any_of(wanted(a), beyond));
+  EXPECT_TRUE(std::ranges::any_of(wanted_in_time(a), beyond));
 }
 
 TEST(TransformCandidates, DescriptorMatchesElsewhereAreNotTried) {
-  CandidateConfig config = at_once();
+  CandidateConfig config = all_at_once();
   config.min_nodes_after = 1000;
   config.max_wait = std::chrono::hours(1);
   CandidateScheduler a(kA, config);
@@ -241,7 +234,7 @@ TEST(TransformCandidates, DescriptorMatchesElsewhereAreNotTried) {
   for (std::uint32_t seq = 0; seq < 3; ++seq)
     apart.push_back(alignment({kA, seq}, {kB, seq}, pose(500.0, 0.0, 0.0)));
   a.on_used_alignments(apart);
-  EXPECT_TRUE(wanted(a).empty());
+  EXPECT_TRUE(wanted_in_time(a).empty());
   EXPECT_TRUE(a.idle(kStart));
   const auto alike = a.stats().by_descriptor;
   add(8, 14);

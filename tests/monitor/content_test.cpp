@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "monitor/page_files.hpp"
 #include "monitor/views.hpp"
 #include "store/items.hpp"
 
@@ -12,11 +13,12 @@ namespace fleetmap::monitor {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::kFile;
 using ::testing::StartsWith;
 using testing::ViewMaker;
 
-constexpr std::uint8_t kFile[] = {1, 2, 3};
-constexpr PageFile kPage[] = {{"/index.html", "text/html", kFile}, {"/main.js", "text/javascript", kFile}};
+constexpr PageFile kTwoFiles[] = {{"/index.html", "text/html", kFile},
+                                  {"/main.js", "text/javascript", kFile}};
 
 cloud::PointCloud cloud_of(std::size_t points) {
   cloud::PointCloud cloud;
@@ -25,7 +27,7 @@ cloud::PointCloud cloud_of(std::size_t points) {
 }
 
 TEST(Content, gives_the_page_by_exact_path_alone) {
-  Content content(kPage, {}, 1000);
+  Content content(kTwoFiles, {}, 1000);
   EXPECT_EQ(content.reply("/").type, "text/html");
   EXPECT_TRUE(content.reply("/main.js").gzip);
   for (const char* path : {"/main.js/", "/../main.js", "//main.js", "/%2e%2e/etc/passwd", "/etc/passwd",
@@ -44,7 +46,7 @@ TEST(Content, without_a_page_it_tells_so) {
 TEST(Content, submaps_of_the_shown_view_are_loaded_once) {
   int loads = 0;
   Content content(
-      kPage,
+      kTwoFiles,
       [&](const NodeId&, const ContentHash&) {
         ++loads;
         return Result<cloud::PointCloud>(cloud_of(100));
@@ -70,7 +72,7 @@ TEST(Content, submaps_of_the_shown_view_are_loaded_once) {
 
 TEST(Content, a_submap_that_cannot_be_read_is_no_end) {
   Content content(
-      kPage,
+      kTwoFiles,
       [](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> { return failure("disk error"); },
       1000);
   ViewMaker fleet;
@@ -101,7 +103,7 @@ class ManySubmaps : public ::testing::Test {
   ViewMaker fleet;
   int loads = 0;
   bool broken = false;
-  Content content{kPage,
+  Content content{kTwoFiles,
                   [this](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> {
                     ++loads;
                     if (broken) return failure("disk error");
@@ -153,7 +155,7 @@ TEST_F(ManySubmaps, previews_that_were_kept_are_not_made_again) {
   EXPECT_EQ(content.new_previews(), 0u);
 
   Content later(
-      kPage,
+      kTwoFiles,
       [](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> { return failure("not asked"); },
       1 << 20);
   later.keep(kept);

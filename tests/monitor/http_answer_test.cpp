@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "monitor/foxglove/client_session.hpp"
+#include "monitor/page_files.hpp"
 #include "monitor/viewer.hpp"
 
 namespace fleetmap::monitor {
@@ -11,12 +12,11 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::kPage;
 
 using Method = HttpRequest::Method;
 
 constexpr const char* kToken = "0123456789abcdef";
-constexpr std::uint8_t kFile[] = {1, 2, 3};
-constexpr PageFile kPage[] = {{"/index.html", "text/html", kFile}};
 
 class HttpAnswer : public ::testing::Test {
  protected:

@@ -14,20 +14,20 @@ using fleetmap::testing::expect_refused;
 
 using Config = ServerConfig;
 
-const std::string kToken(16, 'x');
+const std::string kShortestToken(16, 'x');
 
 TEST(ServerConfig, WithoutATokenOnlyThisMachineIsServed) {
   expect_accepted(Config{}, &Config::address, {"127.0.0.1", "::1"});
   expect_refused(Config{}, &Config::address, {"0.0.0.0", "192.168.1.7", "::"}, "a token is needed");
   Config with_token;
-  with_token.token = kToken;
+  with_token.token = kShortestToken;
   expect_accepted(with_token, &Config::address, {"0.0.0.0", "192.168.1.7", "::"});
 }
 
 TEST(ServerConfig, TheAddressIsOneAndTheTokenIsLong) {
   expect_refused(Config{}, &Config::address, {"", "localhost", "127.0.0.1:80"}, "is no IP address");
-  expect_refused(Config{}, &Config::token, {"x", kToken.substr(1)}, "shorter than 16");
-  expect_accepted(Config{}, &Config::token, {"", kToken});
+  expect_refused(Config{}, &Config::token, {"x", kShortestToken.substr(1)}, "shorter than 16");
+  expect_accepted(Config{}, &Config::token, {"", kShortestToken});
 }
 
 TEST(ServerConfig, SomebodyIsServed) {

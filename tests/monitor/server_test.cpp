@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "monitor/browser.hpp"
+#include "monitor/page_files.hpp"
 #include "monitor/views.hpp"
 #include "point_levels.hpp"
 #include "support/eventually.hpp"
@@ -19,12 +20,10 @@ using ::testing::AllOf;
 using testing::Browser;
 using testing::eventually;
 using ::testing::HasSubstr;
+using testing::kPage;
 using ::testing::Not;
 using ::testing::StartsWith;
 using testing::ViewMaker;
-
-constexpr std::uint8_t kFile[] = {1, 2, 3};
-constexpr PageFile kPage[] = {{"/index.html", "text/html", kFile}};
 
 std::unique_ptr<Server> start(const ServerConfig& config = {}) {
   auto load = [](const NodeId&, const ContentHash&) {

@@ -10,12 +10,12 @@
 namespace fleetmap::odometry {
 namespace {
 
-struct DriveResult {
+struct KittiResult {
   std::vector<Pose> estimate, reference;
   LoamCounters counters;
 };
 
-DriveResult run_drive(const std::filesystem::path& drive, const LoamConfig& config, bool imu, bool wheels) {
+KittiResult run_drive(const std::filesystem::path& drive, const LoamConfig& config, bool imu, bool wheels) {
   Loam loam(config, hdl64e());
   if (imu) {
     for (const auto& sample : testing::read_kitti_gyro(drive)) loam.add_imu(sample);
@@ -25,7 +25,7 @@ DriveResult run_drive(const std::filesystem::path& drive, const LoamConfig& conf
   }
   const auto reference =
       testing::read_tum_by_frame(drive / "derived/lidar_odometry_consensus_tum_10hz_nominal.txt");
-  DriveResult run;
+  KittiResult run;
   int frame = 0;
   for (const auto& file : testing::kitti_frames(drive)) {
     const auto scan = testing::read_kitti_scan(file, frame);
@@ -59,7 +59,7 @@ class KittiDrive : public ::testing::Test {
 constexpr double kMaxRmse = 0.0325;
 
 TEST_F(KittiDrive, LidarAloneStaysNearTheConsensus) {
-  const DriveResult run = run_drive(drive_, {}, false, false);
+  const KittiResult run = run_drive(drive_, {}, false, false);
   ASSERT_EQ(run.estimate.size(), 154u);
   const double rmse = testing::aligned_rmse(run.estimate, run.reference);
   RecordProperty("rmse_m", std::to_string(rmse));
@@ -68,7 +68,7 @@ TEST_F(KittiDrive, LidarAloneStaysNearTheConsensus) {
 }
 
 TEST_F(KittiDrive, GyroAndWheelPriorsKeepItThere) {
-  const DriveResult run = run_drive(drive_, {}, true, true);
+  const KittiResult run = run_drive(drive_, {}, true, true);
   ASSERT_EQ(run.estimate.size(), 154u);
   const double rmse = testing::aligned_rmse(run.estimate, run.reference);
   RecordProperty("rmse_m", std::to_string(rmse));

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
+#include "fleetmap/geometry/degree.hpp"
+
 namespace fleetmap::odometry {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(LidarModels, HaveTheRingsOfTheirDataSheets) {
   const LidarModel velodyne = vlp16();

@@ -6,15 +6,15 @@
 #include <limits>
 #include <random>
 
+#include "support/field_bounds.hpp"
 #include "support/synthetic_lidar.hpp"
 
 namespace fleetmap::odometry {
 namespace {
 
+using fleetmap::testing::kNaN;
 using testing::ScanOptions;
 using testing::SyntheticDrive;
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// Drives straight on through the yard at 1 m/s, scan by scan.
 class LoamInYard : public ::testing::Test {
@@ -55,7 +55,7 @@ TEST_F(LoamInYard, RefusesScansWithNothingInThem) {
   empty.stamp = stamp_from_ns(500'000'000);
   EXPECT_FALSE(loam_.add_scan(empty));
   sensor::Scan all_nan = scan_at(0.5), one_place = scan_at(0.5), zeros = scan_at(0.5);
-  for (auto& p : all_nan.points) p.position.setConstant(kNaN);
+  for (auto& p : all_nan.points) p.position.setConstant(kNaN<float>);
   for (auto& p : one_place.points) p.position = {3.0f, 1.0f, 0.5f};
   for (auto& p : zeros.points) p.position.setZero();
   EXPECT_FALSE(loam_.add_scan(all_nan));
@@ -69,7 +69,7 @@ TEST_F(LoamInYard, RefusesScansWithNothingInThem) {
 TEST_F(LoamInYard, CountsSomeBadPointsAndGoesOn) {
   start();
   sensor::Scan scan = scan_at(0.5);
-  for (std::size_t i = 0; i < scan.points.size(); i += 10) scan.points[i].position.x() = kNaN;
+  for (std::size_t i = 0; i < scan.points.size(); i += 10) scan.points[i].position.x() = kNaN<float>;
   for (std::size_t i = 1; i < scan.points.size(); i += 50) scan.points[i].time = 1e9f;
   for (std::size_t i = 2; i < scan.points.size(); i += 50) scan.points[i].position *= 1e30f;
   for (std::size_t i = 3; i < scan.points.size(); i += 50) scan.points[i].ring = 60000;
@@ -219,7 +219,7 @@ TEST_F(LoamInYard, WheelsAndGyroTellTheWayOfALongGap) {
 TEST_F(LoamInYard, RandomPointsNeverCrashIt) {
   std::mt19937_64 random(11);
   std::normal_distribution<float> normal(0.0f, 20.0f);
-  const float odd[] = {0.0f, kNaN, std::numeric_limits<float>::infinity(), -1e38f, 1e-38f};
+  const float odd[] = {0.0f, kNaN<float>, std::numeric_limits<float>::infinity(), -1e38f, 1e-38f};
   for (int k = 0; k < 60; ++k) {
     sensor::Scan scan;
     scan.stamp = stamp_from_ns(static_cast<std::int64_t>(random() % 20'000'000'000ull));

@@ -15,7 +15,7 @@ std::vector<FeaturePoint> wall() {
   return points;
 }
 
-MotionState at(double x) {
+MotionState state_at(double x) {
   MotionState state;
   state.T_odom_base.translation().x() = x;
   return state;
@@ -29,8 +29,8 @@ TEST(LocalMapping, AfterTheFirstScansOnlyMotionMakesAKeyframe) {
     mapping.insert(wall(), {}, {});
   }
   EXPECT_FALSE(mapping.is_keyframe(Pose::Identity()));
-  EXPECT_FALSE(mapping.is_keyframe(at(0.9 * config.keyframe_distance).T_odom_base));
-  EXPECT_TRUE(mapping.is_keyframe(at(1.1 * config.keyframe_distance).T_odom_base));
+  EXPECT_FALSE(mapping.is_keyframe(state_at(0.9 * config.keyframe_distance).T_odom_base));
+  EXPECT_TRUE(mapping.is_keyframe(state_at(1.1 * config.keyframe_distance).T_odom_base));
   Pose turned = Pose::Identity();
   turned.linear() = so3_exp({0.0, 0.0, 1.1 * config.keyframe_angle});
   EXPECT_TRUE(mapping.is_keyframe(turned));
@@ -45,7 +45,7 @@ TEST(LocalMapping, PointsEnterTheMapMotionCompensated) {
   LocalMapping mapping(config);
   std::vector<FeaturePoint> points = wall();
   for (FeaturePoint& p : points) p.time = 0.5f;
-  MotionState state = at(10.0);
+  MotionState state = state_at(10.0);
   state.twist[0] = 2.0;  // a point fired 0.5 s later is 1 m farther on
   for (int k = 0; k < 3; ++k) mapping.insert(points, {}, state);
   const Surface* surface = mapping.map().surface_at({16.0, 0.0, 1.0}, {10.0, 0.0, 1.0});
@@ -56,24 +56,24 @@ TEST(LocalMapping, PointsEnterTheMapMotionCompensated) {
 TEST(LocalMapping, FarSurfacesAreRemoved) {
   LoamConfig config;
   LocalMapping mapping(config);
-  mapping.insert(wall(), {}, at(0.0));
+  mapping.insert(wall(), {}, state_at(0.0));
   const std::size_t one = mapping.size().windows;
   ASSERT_GT(one, 0u);
-  mapping.insert(wall(), {}, at(20.0));
+  mapping.insert(wall(), {}, state_at(20.0));
   EXPECT_GT(mapping.size().windows, one);
-  mapping.insert({}, {}, at(25.0 + 2.0 * config.map_radius));
+  mapping.insert({}, {}, state_at(25.0 + 2.0 * config.map_radius));
   EXPECT_EQ(mapping.size().windows, 0u);
 }
 
 TEST(LocalMapping, AFullMapForgetsItsFarthestWindows) {
   LoamConfig config;
   LocalMapping unbounded(config);
-  unbounded.insert(wall(), {}, at(0.0));
+  unbounded.insert(wall(), {}, state_at(0.0));
   config.max_map_windows = static_cast<int>(unbounded.size().windows) + 1;
   LocalMapping mapping(config);
-  mapping.insert(wall(), {}, at(0.0));
+  mapping.insert(wall(), {}, state_at(0.0));
   EXPECT_EQ(mapping.overflows(), 0u);
-  mapping.insert(wall(), {}, at(6.0));
+  mapping.insert(wall(), {}, state_at(6.0));
   EXPECT_EQ(mapping.overflows(), 1u);
   EXPECT_LE(static_cast<int>(mapping.size().windows), config.max_map_windows);
 }

@@ -72,8 +72,8 @@ MotionPrior prior_with(const Vector6d& twist, double twist_sigma) {
   return MotionPrior(LoamConfig{}, before, variances.asDiagonal(), 0.1);
 }
 
-MatchResult match(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
-                  LocalMap& map, const MotionPrior& prior) {
+MatchResult aligned(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
+                    LocalMap& map, const MotionPrior& prior) {
   return ScanMatcher(LoamConfig{}).align(planes, edges, map, prior, prior.predicted(), 0.5);
 }
 
@@ -81,7 +81,7 @@ Vector6d error_of(const MatchResult& result) { return se3_log(kTruth.inverse() *
 
 TEST(ScanMatching, LaysAScanOnTheMap) {
   LocalMap map = map_of(hall(0.15, true));
-  const MatchResult result = match(observed(hall(0.4, true)), {}, map, prior_with(Vector6d::Zero(), 0.1));
+  const MatchResult result = aligned(observed(hall(0.4, true)), {}, map, prior_with(Vector6d::Zero(), 0.1));
   EXPECT_TRUE(result.converged);
   EXPECT_LT(error_of(result).head<3>().norm(), 0.001);
   EXPECT_LT(error_of(result).tail<3>().norm(), 0.0002);
@@ -101,10 +101,10 @@ TEST(ScanMatching, TellsHowTheNoiseComparesWithWhatWasAssumed) {
   LocalMap map = map_of(hall(0.15, true));
   const double assumed = LoamConfig{}.range_noise;
   const MotionPrior prior = prior_with(Vector6d::Zero(), 0.1);
-  const MatchResult as_assumed = match(observed(hall(0.3, true), assumed), {}, map, prior);
+  const MatchResult as_assumed = aligned(observed(hall(0.3, true), assumed), {}, map, prior);
   EXPECT_NEAR(as_assumed.residual_variance, 1.0, 0.12);
   EXPECT_NEAR(as_assumed.rms, assumed, 0.06 * assumed);
-  const MatchResult half = match(observed(hall(0.3, true), 0.5 * assumed), {}, map, prior);
+  const MatchResult half = aligned(observed(hall(0.3, true), 0.5 * assumed), {}, map, prior);
   EXPECT_NEAR(half.residual_variance, 0.25, 0.03);
   EXPECT_NEAR(half.rms, 0.5 * assumed, 0.03 * assumed);
 }
@@ -113,7 +113,7 @@ TEST(ScanMatching, TellsHowTheNoiseComparesWithWhatWasAssumed) {
 TEST(ScanMatching, FollowsThePriorAlongWhatTheSceneDoesNotConstrain) {
   LocalMap map = map_of(hall(0.15, false));
   const MotionPrior prior = prior_with(Vector6d::Zero(), 0.1);
-  const MatchResult result = match(observed(hall(0.4, false)), {}, map, prior);
+  const MatchResult result = aligned(observed(hall(0.4, false)), {}, map, prior);
   ASSERT_EQ(result.degenerate_count, 1);
   // Directions are those of the right tangent, in base_link.
   const Vector3d along = kTruth.linear().transpose() * Vector3d::UnitX();
@@ -136,12 +136,12 @@ TEST(ScanMatching, ThePoseIsThatOfTheReferenceInstant) {
   twist << 2.0, 0.1, 0.0, 0.0, 0.0, 0.5;
   std::vector<FeaturePoint> features = observed(hall(0.4, true), 0.0, twist, 0.0, 0.1);
   const MotionPrior prior = prior_with(twist, 0.01);
-  const MatchResult result = match(features, {}, map, prior);
+  const MatchResult result = aligned(features, {}, map, prior);
   EXPECT_LT(error_of(result).head<3>().norm(), 0.003);
   EXPECT_LT(error_of(result).tail<3>().norm(), 0.001);
   EXPECT_LT((result.state.twist - twist).head<3>().norm(), 0.05);
   for (FeaturePoint& feature : features) feature.time = 0.0f;
-  EXPECT_NEAR(error_of(match(features, {}, map, prior)).x(), 0.1, 0.02) << "where the robot was on average";
+  EXPECT_NEAR(error_of(aligned(features, {}, map, prior)).x(), 0.1, 0.02) << "where the robot was on average";
 }
 
 /// Four posts tell the place and the heading, and no height.
@@ -155,7 +155,7 @@ TEST(ScanMatching, EdgesCountAcrossThem) {
   LocalMap map({});
   map.add_edges(posts);
   const MotionPrior prior = prior_with(Vector6d::Zero(), 0.1);
-  const MatchResult result = match({}, observed(posts), map, prior);
+  const MatchResult result = aligned({}, observed(posts), map, prior);
   EXPECT_EQ(result.planes, 0u);
   EXPECT_GT(result.edges, 150u);
   EXPECT_EQ(result.upright, result.edges);
@@ -171,7 +171,7 @@ TEST(ScanMatching, WithoutFeaturesOrMapThePriorIsAllThereIs) {
   LocalMap map = map_of(hall(0.15, true)), empty({});
   for (const auto& [features, on] :
        {std::pair{std::vector<FeaturePoint>{}, &map}, std::pair{observed(hall(0.4, true)), &empty}}) {
-    const MatchResult result = match(features, {}, *on, prior);
+    const MatchResult result = aligned(features, {}, *on, prior);
     EXPECT_EQ(result.planes + result.edges, 0u);
     EXPECT_EQ(result.inlier_fraction, 0.0);
     EXPECT_EQ(result.degenerate_count, 6);

@@ -7,14 +7,14 @@
 #include <limits>
 #include <numbers>
 
+#include "fleetmap/geometry/degree.hpp"
+
 namespace fleetmap::odometry {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::FloatNear;
 using ::testing::Pointwise;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A return at 10 m; its intensity is its number.
 void add(sensor::Scan& scan, double azimuth_deg, double elevation_deg, std::uint16_t ring = 0,

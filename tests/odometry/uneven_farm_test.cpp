@@ -72,7 +72,7 @@ struct Heard {
   std::size_t rings = 1;  ///< every so many of the rings
 };
 
-struct DriveResult {
+struct FarmResult {
   double ate = 0.0, drift = 0.0;
   LoamCounters counters;
 };
@@ -117,7 +117,7 @@ class UnevenFarm : public ::testing::Test {
     return scan;
   }
 
-  DriveResult drive(const Heard& heard) {
+  FarmResult drive(const Heard& heard) {
     const auto track = output::read_tum(folder_ / "truth_base_link.tum");
     if (!track) {
       ADD_FAILURE() << track.error().message;
@@ -148,8 +148,8 @@ class UnevenFarm : public ::testing::Test {
       estimate.push_back(update->T_odom_base);
       truth.push_back(*T_enu_base);
     }
-    DriveResult result{testing::aligned_rmse(estimate, truth), testing::relative_drift(estimate, truth, 20.0),
-                       loam.counters()};
+    FarmResult result{testing::aligned_rmse(estimate, truth), testing::relative_drift(estimate, truth, 20.0),
+                      loam.counters()};
     RecordProperty("ate_m", std::to_string(result.ate));
     RecordProperty("drift", std::to_string(result.drift));
     EXPECT_EQ(result.counters.lost, 0u);
@@ -185,7 +185,7 @@ class UnevenFarm : public ::testing::Test {
 /// 84 m. A velocity that follows the bend of the map ends 1.7 m off and spins; without motion compensation
 /// the error is 0.047 m.
 TEST_F(UnevenFarm, LidarAlone) {
-  const DriveResult result = drive({});
+  const FarmResult result = drive({});
   EXPECT_LT(result.ate, 0.0092);
   EXPECT_LT(result.drift, 0.0004);
 }

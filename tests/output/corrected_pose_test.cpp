@@ -7,14 +7,16 @@
 namespace fleetmap::output {
 namespace {
 
-Pose at(double x, double y) { return make_pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(x, y, 0.0)); }
+Pose pose_at(double x, double y) {
+  return make_pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(x, y, 0.0));
+}
 Stamp seconds(double s) { return stamp_from_ns(static_cast<std::int64_t>(s * 1e9)); }
 
 TEST(CorrectedPose, MovesAlongWithTheNodesAndJumpsNowhere) {
-  const std::vector<CorrectedNode> nodes{{seconds(10), at(0, 0), at(100, 1)},
-                                         {seconds(20), at(10, 0), at(110, 3)}};
+  const std::vector<CorrectedNode> nodes{{seconds(10), pose_at(0, 0), pose_at(100, 1)},
+                                         {seconds(20), pose_at(10, 0), pose_at(110, 3)}};
   const auto y = [&](double s) {
-    return corrected_pose(nodes, Pose::Identity(), {seconds(s), at(s - 10.0, 0)}).translation().y();
+    return corrected_pose(nodes, Pose::Identity(), {seconds(s), pose_at(s - 10.0, 0)}).translation().y();
   };
   EXPECT_DOUBLE_EQ(y(5.0), 1.0);
   EXPECT_DOUBLE_EQ(y(10.0), 1.0);
@@ -25,7 +27,7 @@ TEST(CorrectedPose, MovesAlongWithTheNodesAndJumpsNowhere) {
 }
 
 TEST(CorrectedPose, WithoutNodesTheFrameIsRigid) {
-  EXPECT_TRUE(corrected_pose({}, at(7, 7), {seconds(1), at(1, 0)}).isApprox(at(8, 7)));
+  EXPECT_TRUE(corrected_pose({}, pose_at(7, 7), {seconds(1), pose_at(1, 0)}).isApprox(pose_at(8, 7)));
 }
 
 }  // namespace

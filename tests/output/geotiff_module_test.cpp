@@ -7,11 +7,11 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "crs_wkt.hpp"
 #include "geotiff_writer.hpp"
+#include "support/field_bounds.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
@@ -19,8 +19,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+using testing::kNaN;
 
 std::unique_ptr<GDALDataset> opened_file(const std::filesystem::path& file) {
   GDALAllRegister();
@@ -54,7 +53,7 @@ class GeoTiffModule : public ::testing::Test {
             "fleetmap 1"};
   }
   testing::TemporaryFolder folder_;
-  std::vector<float> values_{100.25f, kNothing, 101.5f, 99.0f, 98.0f, 97.0f};
+  std::vector<float> values_{100.25f, kNaN<float>, 101.5f, 99.0f, 98.0f, 97.0f};
   Result<GeoTiffWriter> writer_ = GeoTiffWriter::load();
 };
 

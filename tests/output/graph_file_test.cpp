@@ -4,12 +4,12 @@
 
 #include <sstream>
 
+#include "store/items.hpp"
+
 namespace fleetmap::output {
 namespace {
 
 using ::testing::Not;
-
-AgentId id(const char* name) { return *AgentId::parse(name); }
 
 Pose pose(double x, double yaw) {
   return make_pose(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix(), {x, 0.5 * x, 0.1});
@@ -70,7 +70,7 @@ class GraphFile : public ::testing::Test {
     for (const char* agent : {"r1", "r2"}) {
       for (std::uint32_t k = 0; k < 2; ++k) {
         graph::Node node;
-        node.id = {id(agent), k};
+        node.id = {testing::agent(agent), k};
         node.T_odom_base = pose(3.0 * k, 0.2 * k);
         node.odom_covariance = Matrix6d::Identity() * 0.01;
         nodes_.push_back(node);
@@ -78,8 +78,8 @@ class GraphFile : public ::testing::Test {
       }
     }
     graph::Alignment alignment;
-    alignment.i = {id("r1"), 1};
-    alignment.j = {id("r2"), 0};
+    alignment.i = {testing::agent("r1"), 1};
+    alignment.j = {testing::agent("r2"), 0};
     alignment.modes.front().T_i_j = pose(-2.0, 3.0);
     alignment.modes.front().covariance.diagonal() << 0.04, 0.04, 0.04, 0.01, 0.01, 0.01;
     placement_.used.push_back(alignment);

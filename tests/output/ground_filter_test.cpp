@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::output {
 namespace {
 
+using testing::kNaN;
+
 constexpr int kWidth = 80;
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 /// 40 m x 40 m of terrain that rises by 10 %, with a table of panels (10 m x 4 m, 1.2 m high) on it.
 std::vector<float> farm() {
@@ -41,7 +43,7 @@ TEST(GroundFilter, CellsWithoutPointsAreNoGroundAndHideNone) {
   // Nothing is seen around the table, as behind one that hides the ground: it is still not the ground.
   for (int y = 33; y < 47; ++y) {
     for (int x = 27; x < 53; ++x) {
-      if (!(x >= 30 && x < 50 && y >= 36 && y < 44)) low[at(x, y)] = kNothing;
+      if (!(x >= 30 && x < 50 && y >= 36 && y < 44)) low[at(x, y)] = kNaN<float>;
     }
   }
   const std::vector<bool> ground = ground_cells(low, kWidth, {});
@@ -69,7 +71,7 @@ TEST(GroundFilter, APitOfAReflectionTakesNoGroundWithIt) {
 
 TEST(GroundFilter, AnEmptyRasterHasNone) {
   EXPECT_TRUE(ground_cells({}, 0, {}).empty());
-  EXPECT_EQ(ground_cells({kNothing, 1.0f}, 2, {}), (std::vector<bool>{false, true}));
+  EXPECT_EQ(ground_cells({kNaN<float>, 1.0f}, 2, {}), (std::vector<bool>{false, true}));
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "store/items.hpp"
+
 namespace fleetmap::output {
 namespace {
 
 using graph::FrameId;
-
-AgentId id(const char* name) { return *AgentId::parse(name); }
 
 class MapPartsTest : public ::testing::Test {
  protected:
@@ -15,7 +15,7 @@ class MapPartsTest : public ::testing::Test {
   void add(const char* agent, std::uint16_t session, std::uint32_t count, bool located) {
     for (std::uint32_t k = 0; k < count; ++k) {
       graph::Node node;
-      node.id = {id(agent), first_seq(session) + k};
+      node.id = {testing::agent(agent), first_seq(session) + k};
       node.session = session;
       if (located) node.G.emplace();
       placement_.T_enu_node.emplace(node.id, make_pose(Eigen::Matrix3d::Identity(), {4.0 * k, 0.0, 0.0}));
@@ -32,7 +32,10 @@ TEST_F(MapPartsTest, UnjoinedComponentsAreApart) {
   add("r3", 7, 2, false);
   add("r4", 0, 1, true);
   add("r5", 0, 4, false);
-  placement_.components = {{{id("r1"), 0}, {id("r5"), 0}}, {{id("r2"), 0}}, {{id("r3"), 7}}, {{id("r4"), 0}}};
+  placement_.components = {{{testing::agent("r1"), 0}, {testing::agent("r5"), 0}},
+                           {{testing::agent("r2"), 0}},
+                           {{testing::agent("r3"), 7}},
+                           {{testing::agent("r4"), 0}}};
   const auto parts = map_parts(nodes_, placement_);
   ASSERT_EQ(parts.apart.size(), 2u);
   EXPECT_TRUE(parts.main.georeferenced);
@@ -47,18 +50,19 @@ TEST_F(MapPartsTest, WithoutAnyGpsTheLargestComponentIsTheMap) {
   add("r1", 0, 3, false);
   add("r2", 0, 9, false);
   add("r3", 0, 2, false);
-  placement_.components = {{{id("r1"), 0}}, {{id("r2"), 0}}, {{id("r3"), 0}}};
+  placement_.components = {
+      {{testing::agent("r1"), 0}}, {{testing::agent("r2"), 0}}, {{testing::agent("r3"), 0}}};
   const auto parts = map_parts(nodes_, placement_);
   ASSERT_EQ(parts.apart.size(), 2u);
-  EXPECT_EQ(parts.main.frames, std::vector<FrameId>({{id("r2"), 0}}));
+  EXPECT_EQ(parts.main.frames, std::vector<FrameId>({{testing::agent("r2"), 0}}));
   EXPECT_EQ(parts.main.T_map_node.size(), 9u);
   EXPECT_FALSE(parts.main.georeferenced);
 }
 
 TEST_F(MapPartsTest, ANodeThatIsNotPlacedIsInNoPart) {
   add("r1", 0, 2, true);
-  placement_.components = {{{id("r1"), 0}}};
-  placement_.T_enu_node.erase({id("r1"), 1});
+  placement_.components = {{{testing::agent("r1"), 0}}};
+  placement_.T_enu_node.erase({testing::agent("r1"), 1});
   EXPECT_EQ(map_parts(nodes_, placement_).main.T_map_node.size(), 1u);
   EXPECT_TRUE(map_parts({}, {}).main.frames.empty());
   EXPECT_TRUE(map_parts({}, {}).apart.empty());

@@ -6,13 +6,15 @@
 #include <limits>
 
 #include "fleetmap/output/placed_store.hpp"
+#include "store/agents.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
 namespace {
 
-const AgentId kSelf = AgentId::parse("r1").value();
-const GeoPoint kSite = geo_point_from_degrees(48.001, 11.0, 500.0);
+using testing::kSelf;
+
+const GeoPoint kConfiguredSite = geo_point_from_degrees(48.001, 11.0, 500.0);
 const GeoPoint kNode = geo_point_from_degrees(48.0, 11.0, 500.0);
 const GeoPoint kElsewhere = geo_point_from_degrees(-33.0, 151.0, 10.0);
 
@@ -36,7 +38,7 @@ class MapRecipeTest : public ::testing::Test {
 
 TEST_F(MapRecipeTest, EverySettingIsKept) {
   RecipeConfig config;
-  config.site_origin = kSite;
+  config.site_origin = kConfiguredSite;
   config.placement.method = graph::PlacementMethod::paper;
   config.placement.paper = {.max_rmse = 0.31, .gps_correlation_time = 32.0};
   config.placement.fleet = {.gps_correlation_time = 33.0,
@@ -49,7 +51,7 @@ TEST_F(MapRecipeTest, EverySettingIsKept) {
   ASSERT_TRUE(keep_recipe(store_, config));
   const auto recipe = map_recipe(store_);
   ASSERT_TRUE(recipe);
-  EXPECT_EQ(recipe->origin, kSite);
+  EXPECT_EQ(recipe->origin, kConfiguredSite);
   EXPECT_EQ(recipe->merge.voxel_m, 0.38);
   EXPECT_EQ(recipe->search_radius_m, 39.0);
   EXPECT_EQ(recipe->merge.centroids, config.map.centroids);
@@ -73,7 +75,7 @@ TEST_F(MapRecipeTest, WithoutAConfiguredOriginItFollowsTheNodes) {
 
 TEST_F(MapRecipeTest, DamagedSettingsAreNoRecipe) {
   RecipeConfig config;
-  config.site_origin = kSite;
+  config.site_origin = kConfiguredSite;
   ASSERT_TRUE(keep_recipe(store_, config));
   const Bytes whole = store_.meta("map_recipe").value().value();
   const auto with_value = [&](std::size_t index, double value) {
@@ -106,11 +108,11 @@ TEST_F(MapRecipeTest, AStoreWithoutARecipeIsShownWithTheDefaults) {
 
 TEST_F(MapRecipeTest, AGivenOriginTakesTheRecipesPlaceButNotItsSettings) {
   RecipeConfig config;
-  config.site_origin = kSite;
+  config.site_origin = kConfiguredSite;
   config.map.voxel_m = 0.25;
   ASSERT_TRUE(keep_recipe(store_, config));
   add_node(true);
-  EXPECT_EQ(recipe_or_default(store_)->origin, kSite);
+  EXPECT_EQ(recipe_or_default(store_)->origin, kConfiguredSite);
   const auto moved = recipe_or_default(store_, kElsewhere);
   ASSERT_TRUE(moved);
   EXPECT_EQ(moved->origin, kElsewhere);

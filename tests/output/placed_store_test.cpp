@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/cloud/codec.hpp"
+#include "output/site.hpp"
 #include "store/items.hpp"
 #include "support/bent_store.hpp"
 #include "support/temporary_folder.hpp"
@@ -14,8 +15,7 @@ namespace {
 using testing::agent;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-const GeoPoint kSite = geo_point_from_degrees(48.0, 11.0, 500.0);
+using testing::kSite;
 
 class PlacedStore : public ::testing::Test {
  protected:

@@ -14,13 +14,14 @@
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "graph/simulated_fleet.hpp"
+#include "store/agents.hpp"
 #include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
 namespace {
 
-const AgentId kSelf = AgentId::parse("r1").value();
+using testing::kSelf;
 
 class ResultsTest : public ::testing::Test {
  protected:

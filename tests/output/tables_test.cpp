@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "output/site.hpp"
 #include "store/items.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -14,9 +15,8 @@ namespace {
 
 using testing::agent;
 using ::testing::IsEmpty;
+using testing::kSite;
 using ::testing::SizeIs;
-
-const GeoPoint kSite = geo_point_from_degrees(48.0, 11.0, 500.0);
 
 /// One line of a table, by the names of its columns.
 using Row = std::map<std::string, std::string>;

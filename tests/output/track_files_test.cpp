@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geometry/geoid_file.hpp"
+#include "store/items.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
@@ -14,8 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-AgentId id(const char* name) { return *AgentId::parse(name); }
 
 /// r1 at the origin and 100 m north of it, r2 at one place, and a node of r2 that has none.
 class TrackFiles : public ::testing::Test {
@@ -29,7 +28,7 @@ class TrackFiles : public ::testing::Test {
   }
   void add(const char* agent, std::uint32_t seq, std::int64_t after_ns, double north) {
     graph::Node node;
-    node.id = {id(agent), seq};
+    node.id = {testing::agent(agent), seq};
     node.stamp = stamp_from_ns(1'795'630'359'000'000'000 + after_ns);
     nodes_.push_back(node);
     T_enu_node_[node.id] = make_pose(Eigen::Matrix3d::Identity(), {0.0, north, 2.0});

@@ -10,7 +10,7 @@
 namespace fleetmap::output {
 namespace {
 
-Trajectory made_up(std::size_t count) {
+Trajectory made_up_trajectory(std::size_t count) {
   Trajectory poses;
   for (std::size_t k = 0; k < count; ++k) {
     const double a = 0.1 * static_cast<double>(k);
@@ -23,7 +23,7 @@ Trajectory made_up(std::size_t count) {
 
 TEST(TrajectoryFile, ReadsBackWhatItWroteToTheNanosecond) {
   const testing::TemporaryFolder folder;
-  const auto poses = made_up(50);
+  const auto poses = made_up_trajectory(50);
   ASSERT_TRUE(write_tum(folder.path() / "t.tum", poses));
   const auto read = read_tum(folder.path() / "t.tum");
   ASSERT_TRUE(read) << read.error().message;
@@ -38,14 +38,14 @@ TEST(TrajectoryFile, GrowingFileHoldsEveryLineAtOnce) {
   const testing::TemporaryFolder folder;
   auto file = TrajectoryFile::create(folder.path() / "t.tum");
   ASSERT_TRUE(file);
-  for (const StampedPose& pose : made_up(3)) ASSERT_TRUE(file->add(pose));
+  for (const StampedPose& pose : made_up_trajectory(3)) ASSERT_TRUE(file->add(pose));
   EXPECT_EQ(read_growing_tum(folder.path() / "t.tum")->size(), 3u)
       << "the writer is still open, as when it is killed";
 }
 
 TEST(TrajectoryFile, LineThatAKillCutOffEndsTheFile) {
   const testing::TemporaryFolder folder;
-  const std::string lines = tum_line(made_up(1)[0]) + "\n" + tum_line(made_up(2)[1]);
+  const std::string lines = tum_line(made_up_trajectory(1)[0]) + "\n" + tum_line(made_up_trajectory(2)[1]);
   const auto file = folder.write("t.tum", lines.substr(0, lines.size() - 40));
   const auto read = read_growing_tum(file);
   ASSERT_TRUE(read) << read.error().message;
@@ -54,8 +54,8 @@ TEST(TrajectoryFile, LineThatAKillCutOffEndsTheFile) {
 
 TEST(TrajectoryFile, NonsenseIsAnErrorWithFileAndLine) {
   const testing::TemporaryFolder folder;
-  const auto file = folder.write(
-      "t.tum", "# a comment\n" + tum_line(made_up(1)[0]) + "\nhello\n" + tum_line(made_up(1)[0]) + "\n");
+  const auto file = folder.write("t.tum", "# a comment\n" + tum_line(made_up_trajectory(1)[0]) + "\nhello\n" +
+                                              tum_line(made_up_trajectory(1)[0]) + "\n");
   const auto read = read_growing_tum(file);
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error().message, ::testing::HasSubstr("t.tum:3: expected"));

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "support/field_bounds.hpp"
 
 namespace fleetmap::place {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using fleetmap::testing::kNaN;
 
 Matrix6d with_horizontal_sigmas(double major, double minor, double angle) {
   Matrix6d C = Matrix6d::Identity() * 1e4;  // height and rotation must not matter
@@ -26,7 +27,7 @@ TEST(HorizontalSigma, IsTheWorstHorizontalDirectionWhateverItsAngle) {
 
 TEST(HorizontalSigma, UnknownWhereTheCovarianceSaysNothing) {
   Matrix6d C = Matrix6d::Identity();
-  C(0, 1) = C(1, 0) = kNaN;
+  C(0, 1) = C(1, 0) = kNaN<double>;
   EXPECT_TRUE(std::isinf(horizontal_sigma(C)));
   C = Matrix6d::Identity();
   C(1, 1) = -4.0;
@@ -42,9 +43,9 @@ TEST(TellsPlace, OnlyAPlaceOnEarthThatIsKnownWellEnough) {
   EXPECT_TRUE(has_known_position(G, 15.0));
   EXPECT_FALSE(has_known_position(G, 13.0));
   GlobalPose nowhere = G;
-  nowhere.position.latitude = kNaN;
+  nowhere.position.latitude = kNaN<double>;
   EXPECT_FALSE(has_known_position(nowhere, 15.0));
-  G.covariance(0, 0) = kNaN;
+  G.covariance(0, 0) = kNaN<double>;
   EXPECT_FALSE(has_known_position(G, 15.0));
 }
 
@@ -76,9 +77,9 @@ TEST(SearchRadius, IsMonotonousAndNeverLeavesItsBounds) {
 
 TEST(SearchRadius, UnknownUncertaintySearchesWidest) {
   const ProximityConfig config;
-  EXPECT_EQ(search_radius(kNaN, config), 30.0);
+  EXPECT_EQ(search_radius(kNaN<double>, config), 30.0);
   EXPECT_EQ(search_radius(-1.0, config), 30.0);
-  EXPECT_EQ(search_radius(Matrix6d::Constant(kNaN), config), 30.0);
+  EXPECT_EQ(search_radius(Matrix6d::Constant(kNaN<double>), config), 30.0);
 }
 
 TEST(FindProximity, ReturnsTheNearestNodeIfItLiesWithinTheRadius) {
@@ -103,7 +104,7 @@ TEST(FindProximity, NothingInAnEmptyTreeOrForAnInvalidPosition) {
   EXPECT_FALSE(find_proximity(tree, GlobalPose{}, {}));
   tree.insert({0.0, 0.0, 0.0});
   GlobalPose G;
-  G.position = {kNaN, 0.0, 0.0};
+  G.position = {kNaN<double>, 0.0, 0.0};
   EXPECT_FALSE(find_proximity(tree, G, {}));
 }
 
@@ -130,7 +131,7 @@ TEST(ProximityConfig, NamesTheFieldThatBreaksItsRule) {
   EXPECT_EQ(field_of({.radius_scale = 0.0}), "radius_scale");
   EXPECT_EQ(field_of({.min_radius = -1.0}), "min_radius");
   EXPECT_EQ(field_of({.min_radius = 30.0, .max_radius = 20.0}), "max_radius");
-  EXPECT_EQ(field_of({.max_radius = kNaN}), "max_radius");
+  EXPECT_EQ(field_of({.max_radius = kNaN<double>}), "max_radius");
 }
 
 }  // namespace

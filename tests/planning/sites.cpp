@@ -65,4 +65,14 @@ std::vector<RobotAbility> fleet(int count, bool mixed_speeds) {
   return robots;
 }
 
+Mission three_rows() {
+  Mission mission;
+  mission.rows = {{4, {{0, 0}, {100, 0}}}, {7, {{0, 8}, {30, 8}, {30, 48}}}, {9, {{0, 16}, {100, 16}}}};
+  return mission;
+}
+
+KeepOut box(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+
+LocalFrame site_frame() { return LocalFrame(geo_point_from_degrees(48.1, 11.6, 520.0)); }
+
 }  // namespace fleetmap::planning::testing

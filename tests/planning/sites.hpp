@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/planning/site/mission.hpp"
 
 namespace fleetmap::planning::testing {
@@ -35,5 +37,17 @@ AgentId name(int k);
 
 /// Robots side by side at the south-west corner.
 std::vector<RobotAbility> fleet(int count, bool mixed_speeds = false);
+
+/// A row of two waypoints, one of three and one of two.
+Mission three_rows();
+
+KeepOut box(double x0, double y0, double x1, double y1);
+
+LocalFrame site_frame();
+
+/// Rows by their index in the mission.
+using Rows = std::vector<std::size_t>;
+
+inline constexpr double kClearance = 0.7;  ///< m, of a robot from what it keeps out of
 
 }  // namespace fleetmap::planning::testing

@@ -1,12 +1,12 @@
 #include "recording/bag_file.hpp"
 
 #include <gmock/gmock.h>
-#include <zstd.h>
 
 #include <cstdlib>
 #include <fstream>
 
 #include "bag_samples.hpp"
+#include "recording/compressed.hpp"
 #include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,14 +15,9 @@ namespace {
 
 using fleetmap::testing::TemporaryFolder;
 using ::testing::HasSubstr;
+using testing::zstd_of;
 using namespace recording::testing;
 namespace fs = std::filesystem;
-
-Bytes zstd_of(const Bytes& bytes) {
-  Bytes packed(ZSTD_compressBound(bytes.size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 1));
-  return packed;
-}
 
 /// Compresses a file in its place, as `ros2 bag record --compression-mode file` does.
 void compress(const fs::path& file) {

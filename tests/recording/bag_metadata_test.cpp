@@ -14,24 +14,25 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string error_of(const std::string& text) {
+std::string metadata_error(const std::string& text) {
   const TemporaryFolder folder;
   folder.write(kMetadataFile, text);
   const auto metadata = read_metadata(folder.path());
   return metadata ? "no error" : metadata.error().message;
 }
 
-const BagMetadata kDrive{.storage = "mcap",
-                         .compression_format = "zstd",
-                         .compression_mode = "FILE",
-                         .files = {"a: b_0.mcap.zstd", "#_1.mcap.zstd"},
-                         .topics = {{"/points", "sensor_msgs/msg/PointCloud2", 3}, {"/imu", "x/msg/Imu", 40}},
-                         .first_ns = 1'700'000'000'000'000'005,
-                         .last_ns = 1'700'000'003'500'000'000};
+const BagMetadata kDriveMetadata{
+    .storage = "mcap",
+    .compression_format = "zstd",
+    .compression_mode = "FILE",
+    .files = {"a: b_0.mcap.zstd", "#_1.mcap.zstd"},
+    .topics = {{"/points", "sensor_msgs/msg/PointCloud2", 3}, {"/imu", "x/msg/Imu", 40}},
+    .first_ns = 1'700'000'000'000'000'005,
+    .last_ns = 1'700'000'003'500'000'000};
 
 TEST(BagMetadata, WrittenContentIsRead) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_metadata(folder.path(), kDrive));
+  ASSERT_TRUE(write_metadata(folder.path(), kDriveMetadata));
   const auto read = read_metadata(folder.path());
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->storage, "mcap");
@@ -46,7 +47,7 @@ TEST(BagMetadata, WrittenContentIsRead) {
 
 TEST(BagMetadata, WritesWhatRosbag2OfHumbleWants) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(write_metadata(folder.path(), kDrive));
+  ASSERT_TRUE(write_metadata(folder.path(), kDriveMetadata));
   const YAML::Node info =
       YAML::LoadFile((folder.path() / kMetadataFile).string())["rosbag2_bagfile_information"];
   EXPECT_EQ(info["version"].as<int>(), 5);
@@ -76,14 +77,15 @@ TEST(BagMetadata, UnknownContentIsReadAsFarAsPossible) {
 }
 
 TEST(BagMetadata, ProblemsNameTheFileAndItsLine) {
-  EXPECT_THAT(error_of("a: 1\n"), HasSubstr("metadata.yaml: has no rosbag2_bagfile_information; is this"));
-  EXPECT_THAT(error_of("rosbag2_bagfile_information: text\n"), HasSubstr("is this a rosbag2 folder?"));
-  EXPECT_THAT(error_of("rosbag2_bagfile_information:\n  relative_file_paths: [[x]]\n"),
+  EXPECT_THAT(metadata_error("a: 1\n"),
+              HasSubstr("metadata.yaml: has no rosbag2_bagfile_information; is this"));
+  EXPECT_THAT(metadata_error("rosbag2_bagfile_information: text\n"), HasSubstr("is this a rosbag2 folder?"));
+  EXPECT_THAT(metadata_error("rosbag2_bagfile_information:\n  relative_file_paths: [[x]]\n"),
               HasSubstr("metadata.yaml:2: "));
-  EXPECT_THAT(error_of("a: 1\nb: [\n"), HasSubstr("metadata.yaml:3: "));
+  EXPECT_THAT(metadata_error("a: 1\nb: [\n"), HasSubstr("metadata.yaml:3: "));
   const TemporaryFolder folder;
   EXPECT_THAT(read_metadata(folder.path()).error().message, HasSubstr("metadata.yaml"));
-  EXPECT_THAT(write_metadata(folder.path() / "none", kDrive).error().message,
+  EXPECT_THAT(write_metadata(folder.path() / "none", kDriveMetadata).error().message,
               HasSubstr("metadata.yaml: cannot be written: No such file or directory"));
 }
 

@@ -5,20 +5,14 @@
 
 #include <map>
 
+#include "recording/timed_samples.hpp"
+
 namespace fleetmap::recording {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::at;
 using ::testing::ElementsAre;
-
-const Stamp kBegin = stamp_from_ns(1'700'000'000'000'000'000);
-
-template <class T>
-Sample at(Duration time) {
-  T sample;
-  sample.stamp = kBegin + time;
-  return sample;
-}
 
 /// Offers its checks alone.
 class Checks : public CheckedReader {

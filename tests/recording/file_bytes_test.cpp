@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <lzma.h>
 
 #include <random>
 
+#include "recording/compressed.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
@@ -13,17 +13,7 @@ namespace {
 
 using fleetmap::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-std::string xz(const std::string& text) {
-  std::string out(lzma_stream_buffer_bound(text.size()), '\0');
-  std::size_t size = 0;
-  EXPECT_EQ(lzma_easy_buffer_encode(1, LZMA_CHECK_CRC64, nullptr,
-                                    reinterpret_cast<const std::uint8_t*>(text.data()), text.size(),
-                                    reinterpret_cast<std::uint8_t*>(out.data()), &size, out.size()),
-            LZMA_OK);
-  out.resize(size);
-  return out;
-}
+using testing::xz;
 
 std::string noise(std::size_t size) {
   std::mt19937 random(1);
@@ -32,7 +22,7 @@ std::string noise(std::size_t size) {
   return bytes;
 }
 
-std::string error_of(const std::filesystem::path& file) {
+std::string file_error(const std::filesystem::path& file) {
   const auto bytes = read_file(file);
   return bytes ? "no error" : bytes.error().message;
 }
@@ -54,7 +44,7 @@ TEST(FileBytes, OnlyTheNameTellsThatAFileIsPacked) {
   const TemporaryFolder folder;
   const std::string packed = xz("points");
   EXPECT_EQ(read_file(folder.write("a.bin", packed)).value(), Bytes(packed.begin(), packed.end()));
-  EXPECT_THAT(error_of(folder.write("a.xz", "points of a scan that nobody packed")),
+  EXPECT_THAT(file_error(folder.write("a.xz", "points of a scan that nobody packed")),
               HasSubstr("a.xz: the xz file is damaged"));
 }
 
@@ -68,20 +58,20 @@ TEST(FileBytes, DamageIsTold) {
   const TemporaryFolder folder;
   const std::string packed = xz(noise(1000));
   for (const std::size_t kept : {std::size_t{0}, std::size_t{5}, packed.size() / 2, packed.size() - 1})
-    EXPECT_THAT(error_of(folder.write("a.xz", packed.substr(0, kept))),
+    EXPECT_THAT(file_error(folder.write("a.xz", packed.substr(0, kept))),
                 HasSubstr("a.xz: the xz file is truncated"));
   std::string flipped = packed;
   flipped[packed.size() / 2] ^= 1;
-  EXPECT_THAT(error_of(folder.write("a.xz", flipped)), HasSubstr("a.xz: the xz file is damaged"));
-  EXPECT_THAT(error_of(folder.path() / "none.bin"), HasSubstr("none.bin: cannot be read: "));
-  EXPECT_THAT(error_of(folder.path()), HasSubstr(folder.path().string() + ": cannot be read"));
+  EXPECT_THAT(file_error(folder.write("a.xz", flipped)), HasSubstr("a.xz: the xz file is damaged"));
+  EXPECT_THAT(file_error(folder.path() / "none.bin"), HasSubstr("none.bin: cannot be read: "));
+  EXPECT_THAT(file_error(folder.path()), HasSubstr(folder.path().string() + ": cannot be read"));
 }
 
 TEST(FileBytes, FileLargerThanAnyScanIsNotRead) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.bin", "");
   std::filesystem::resize_file(file, (256u << 20) + 1);  // a hole: no disk is needed
-  EXPECT_THAT(error_of(file), HasSubstr("a.bin: is larger than 256 MiB"));
+  EXPECT_THAT(file_error(file), HasSubstr("a.bin: is larger than 256 MiB"));
 }
 
 }  // namespace

@@ -9,11 +9,11 @@ namespace {
 
 using namespace recording::testing;
 
-constexpr char kDrive[] = "kitti_raw_2011_09_26_drive_0005";
+constexpr char kDriveName[] = "kitti_raw_2011_09_26_drive_0005";
 
 TEST(KittiDrive, EveryFrameIsReadAndItsMarkDropped) {
-  const auto drive = fleetmap::testing::shared_data(kDrive);
-  if (!drive) GTEST_SKIP() << kDrive << " is not installed";
+  const auto drive = fleetmap::testing::shared_data(kDriveName);
+  if (!drive) GTEST_SKIP() << kDriveName << " is not installed";
   auto reader = open(*drive);
   ASSERT_TRUE(reader) << reader.error().message;
   std::size_t points = 0, frame = 0;
@@ -40,8 +40,8 @@ TEST(KittiDrive, EveryFrameIsReadAndItsMarkDropped) {
 }
 
 TEST(KittiDrive, AHalfIsARobotOfItsOwn) {
-  const auto drive = fleetmap::testing::shared_data(kDrive);
-  if (!drive) GTEST_SKIP() << kDrive << " is not installed";
+  const auto drive = fleetmap::testing::shared_data(kDriveName);
+  if (!drive) GTEST_SKIP() << kDriveName << " is not installed";
   ReaderConfig config;
   config.kitti.first_frame = 60;
   config.kitti.last_frame = 62;

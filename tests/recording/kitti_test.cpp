@@ -1,37 +1,27 @@
 #include <gmock/gmock.h>
-#include <lzma.h>
 
 #include <cstring>
 
 #include "bag_samples.hpp"
+#include "recording/compressed.hpp"
+#include "recording/float_bytes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {
 
 using fleetmap::testing::TemporaryFolder;
+using testing::float_bytes;
 using ::testing::HasSubstr;
+using testing::xz;
 using namespace recording::testing;
 
-std::string packed(const std::vector<float>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
-}
-std::string xz(const std::string& text) {
-  std::string out(lzma_stream_buffer_bound(text.size()), '\0');
-  std::size_t size = 0;
-  EXPECT_EQ(lzma_easy_buffer_encode(6, LZMA_CHECK_CRC64, nullptr,
-                                    reinterpret_cast<const std::uint8_t*>(text.data()), text.size(),
-                                    reinterpret_cast<std::uint8_t*>(out.data()), &size, out.size()),
-            LZMA_OK);
-  out.resize(size);
-  return out;
-}
-std::string number(int frame) {
+std::string frame_name(int frame) {
   char name[16];
   std::snprintf(name, sizeof(name), "%010d", frame);
   return name;
 }
-const std::string kPoints = packed({1, 2, 3, 0.5f, 4, 5, 6, 0.25f, 0, 0, 0, 0});
+const std::string kPoints = float_bytes({1, 2, 3, 0.5f, 4, 5, 6, 0.25f, 0, 0, 0, 0});
 std::string pcd(const std::string& data, const std::string& body) {
   return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH "
          "3\nHEIGHT 1\n"
@@ -48,8 +38,8 @@ class Kitti : public ::testing::Test {
  protected:
   void write_frames(int first, int last) {
     for (int k = first; k <= last; ++k) {
-      folder.write("velodyne_points/data/" + number(k) + ".bin", kPoints);
-      folder.write("oxts/data/" + number(k) + ".txt", oxts(k));
+      folder.write("velodyne_points/data/" + frame_name(k) + ".bin", kPoints);
+      folder.write("oxts/data/" + frame_name(k) + ".txt", oxts(k));
     }
   }
   std::vector<Sample> read(const ReaderConfig& config = {}) {
@@ -101,11 +91,11 @@ TEST_F(Kitti, FramesBecomeSamplesAtNominalTimes) {
 
 TEST_F(Kitti, EveryFileFormatGivesTheSamePoints) {
   const std::string ascii = pcd("ascii", "1 2 3 0.5\n4 5 6 0.25\n0 0 0 0\n");
-  folder.write("velodyne_points/" + number(0) + ".bin", kPoints);
-  folder.write("velodyne_points/" + number(1) + ".bin.xz", xz(kPoints));
-  folder.write("velodyne_points/" + number(2) + ".pcd", pcd("binary", kPoints));
-  folder.write("velodyne_points/" + number(3) + ".pcd.xz", xz(pcd("binary", kPoints)));
-  folder.write("velodyne_points/" + number(4) + ".pcd", ascii);
+  folder.write("velodyne_points/" + frame_name(0) + ".bin", kPoints);
+  folder.write("velodyne_points/" + frame_name(1) + ".bin.xz", xz(kPoints));
+  folder.write("velodyne_points/" + frame_name(2) + ".pcd", pcd("binary", kPoints));
+  folder.write("velodyne_points/" + frame_name(3) + ".pcd.xz", xz(pcd("binary", kPoints)));
+  folder.write("velodyne_points/" + frame_name(4) + ".pcd", ascii);
   const auto scans = only<sensor::Scan>(read());
   ASSERT_EQ(scans.size(), 5u);
   for (const auto& scan : scans) {
@@ -175,7 +165,7 @@ TEST_F(Kitti, ABareFolderOfScansIsReadInOrder) {
   EXPECT_EQ(to_ns(scans[1].stamp), 1'200'000'000);
   EXPECT_FALSE(scans[0].has_time);
   EXPECT_EQ(counters.missing_scan_frames, 4u);
-  folder.write("site_a.bin", packed({9, 9, 9, 1}));  // no number: all count in the order of their names
+  folder.write("site_a.bin", float_bytes({9, 9, 9, 1}));  // no number: all count in the order of their names
   ReaderConfig config;
   config.kitti.nominal_rate = 5.0;
   scans = only<sensor::Scan>(read(config));
@@ -194,15 +184,16 @@ TEST_F(Kitti, TimestampsRunningBackwardsAreSkipped) {
 
 TEST_F(Kitti, HolesAndDamageAreSkippedAndCounted) {
   write_frames(0, 9);
-  const auto scan = [&](int k) { return folder.path() / "velodyne_points/data" / (number(k) + ".bin"); };
-  const auto record = [&](int k) { return folder.path() / "oxts/data" / (number(k) + ".txt"); };
+  const auto scan = [&](int k) { return folder.path() / "velodyne_points/data" / (frame_name(k) + ".bin"); };
+  const auto record = [&](int k) { return folder.path() / "oxts/data" / (frame_name(k) + ".txt"); };
   std::filesystem::remove(scan(1));
   std::filesystem::remove(scan(2));
   std::filesystem::remove(record(3));
   std::filesystem::resize_file(record(4), 40);
   std::filesystem::resize_file(scan(5), 30);
   std::filesystem::resize_file(scan(6), 0);
-  folder.write("velodyne_points/data/" + number(7) + ".bin", packed({std::nanf(""), 0, 0, 0, 1, 1, 1, 1}));
+  folder.write("velodyne_points/data/" + frame_name(7) + ".bin",
+               float_bytes({std::nanf(""), 0, 0, 0, 1, 1, 1, 1}));
   folder.write("velodyne_points/data/readme.bin", "no frame");
   const auto samples = read();
   EXPECT_EQ(counters.scans, 6u);
@@ -217,22 +208,23 @@ TEST_F(Kitti, HolesAndDamageAreSkippedAndCounted) {
 
 TEST_F(Kitti, DamagedFilesNeverCrash) {
   const std::string good = xz(pcd("binary", kPoints));
-  folder.write("velodyne_points/" + number(0) + ".pcd.xz", good);
-  folder.write("velodyne_points/" + number(1) + ".pcd.xz", good.substr(0, good.size() / 2));
-  folder.write("velodyne_points/" + number(2) + ".pcd.xz", "not xz at all");
-  folder.write("velodyne_points/" + number(3) + ".pcd",
+  folder.write("velodyne_points/" + frame_name(0) + ".pcd.xz", good);
+  folder.write("velodyne_points/" + frame_name(1) + ".pcd.xz", good.substr(0, good.size() / 2));
+  folder.write("velodyne_points/" + frame_name(2) + ".pcd.xz", "not xz at all");
+  folder.write("velodyne_points/" + frame_name(3) + ".pcd",
                "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 99999999999\nDATA binary\n");
-  folder.write("velodyne_points/" + number(4) + ".pcd",
+  folder.write("velodyne_points/" + frame_name(4) + ".pcd",
                "FIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n1 2\n");
-  folder.write("velodyne_points/" + number(5) + ".pcd", "VERSION 0.7\n");
-  folder.write("velodyne_points/" + number(6) + ".pcd", "");
-  folder.write("velodyne_points/" + number(7) + ".pcd", pcd("ascii", "1 2 3 4\n5 6"));
-  folder.write("velodyne_points/" + number(8) + ".pcd", pcd("binary_compressed", ""));
-  folder.write("velodyne_points/" + number(9) + ".pcd", "FIELDS x y z\nSIZE 4 4\nTYPE F F F\nDATA binary\n");
+  folder.write("velodyne_points/" + frame_name(5) + ".pcd", "VERSION 0.7\n");
+  folder.write("velodyne_points/" + frame_name(6) + ".pcd", "");
+  folder.write("velodyne_points/" + frame_name(7) + ".pcd", pcd("ascii", "1 2 3 4\n5 6"));
+  folder.write("velodyne_points/" + frame_name(8) + ".pcd", pcd("binary_compressed", ""));
+  folder.write("velodyne_points/" + frame_name(9) + ".pcd",
+               "FIELDS x y z\nSIZE 4 4\nTYPE F F F\nDATA binary\n");
   const std::string counts = "\nPOINTS 2\nDATA binary\n" + std::string(24, 'A');
-  folder.write("velodyne_points/" + number(10) + ".pcd",
+  folder.write("velodyne_points/" + frame_name(10) + ".pcd",
                "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 0 0 0" + counts);
-  folder.write("velodyne_points/" + number(11) + ".pcd",
+  folder.write("velodyne_points/" + frame_name(11) + ".pcd",
                "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 0" + counts);
   read();
   EXPECT_EQ(counters.scans, 1u);

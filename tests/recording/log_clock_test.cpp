@@ -11,27 +11,27 @@ using namespace std::chrono_literals;
 using namespace recording::testing;
 
 /// One sample of a bag: seconds of its stamp and of its recording.
-struct Times {
+struct SampleTimes {
   double stamp, recorded;
 };
 
 /// The clock of a bag with these IMU samples, and fixes.
-LogClock clock_of(const std::vector<Times>& imus, const std::vector<Times>& fixes = {}) {
+LogClock clock_of(const std::vector<SampleTimes>& imus, const std::vector<SampleTimes>& fixes = {}) {
   const auto at = [](double seconds) { return stamp_from_ns(kStart) + from_seconds(seconds); };
   LogClockFinder finder;
-  const auto add = [&](auto sample, const Times& times) {
+  const auto add = [&](auto sample, const SampleTimes& times) {
     sample.stamp = at(times.stamp);
     finder.add(sample, at(times.recorded));
   };
   add(sensor::Scan(), imus.front());
-  for (const Times& times : imus) add(sensor::Imu(), times);
-  for (const Times& times : fixes) add(sensor::Fix(), times);
+  for (const SampleTimes& times : imus) add(sensor::Imu(), times);
+  for (const SampleTimes& times : fixes) add(sensor::Fix(), times);
   return finder.clock();
 }
 
 /// `count` samples a second apart, recorded `lag` later by a clock of this rate.
-std::vector<Times> every_second(int count, double lag, double rate = 1.0) {
-  std::vector<Times> times;
+std::vector<SampleTimes> every_second(int count, double lag, double rate = 1.0) {
+  std::vector<SampleTimes> times;
   for (int k = 0; k < count; ++k) times.push_back({1.0 * k, lag + rate * k});
   return times;
 }
@@ -54,7 +54,7 @@ TEST(LogClock, ALagOfAMinuteIsThatOfDrivers) {
 }
 
 TEST(LogClock, TheLeastLagOfASensorCounts) {
-  std::vector<Times> times = every_second(6, 100.0);
+  std::vector<SampleTimes> times = every_second(6, 100.0);
   times[0].recorded += 0.9;  // a delayed message
   times[3].recorded -= 0.5;
   // The only scan was recorded with the first IMU sample: of both sensors the smaller lag is taken.
@@ -63,7 +63,7 @@ TEST(LogClock, TheLeastLagOfASensorCounts) {
 
 TEST(LogClock, OfThreeSensorsTheMiddleLagCounts) {
   // The clock of the receiver is right; those of scans and IMU are 400 s behind.
-  const std::vector<Times> fixes{{400.0, 400.0}, {401.0, 401.0}};
+  const std::vector<SampleTimes> fixes{{400.0, 400.0}, {401.0, 401.0}};
   EXPECT_EQ(clock_of(every_second(4, 400.0), fixes).shift, -400s);
 }
 

@@ -38,7 +38,7 @@ std::string capture() {
   return bytes;
 }
 
-void expect_drive(Reader& reader) {
+void expect_ouster_drive(Reader& reader) {
   std::size_t scans = 0, imus = 0;
   for (const Sample& sample : read_all(reader)) {
     if (const auto* scan = std::get_if<sensor::Scan>(&sample)) {
@@ -67,7 +67,7 @@ TEST(OusterReader, ReadsScansAndImuByTheMetadataBesideTheCapture) {
   folder.write("drive.json", OusterDevice(Duration::zero()).metadata());
   auto reader = open(folder.path() / "drive.pcap");
   ASSERT_TRUE(reader) << reader.error().message;
-  expect_drive(**reader);
+  expect_ouster_drive(**reader);
 }
 
 TEST(OusterReader, ReadsByTheMetadataOfTheConfiguration) {
@@ -78,7 +78,7 @@ TEST(OusterReader, ReadsByTheMetadataOfTheConfiguration) {
       sensor::read_ouster_metadata(OusterDevice(Duration::zero()).metadata(true)).value();
   auto reader = open(folder.path() / "drive.pcap", config);
   ASSERT_TRUE(reader) << reader.error().message;
-  expect_drive(**reader);
+  expect_ouster_drive(**reader);
 }
 
 TEST(OusterReader, WithoutPointsOnlyTheStampsAreLeft) {

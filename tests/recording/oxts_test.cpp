@@ -6,17 +6,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "recording/timed_samples.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {
 
 using fleetmap::testing::TemporaryFolder;
-
-const Stamp kBegin = stamp_from_ns(1'700'000'000'000'000'000);
+using testing::kBegin;
 
 /// Place k holds 100 + k, except for those whose ranges are smaller: number k is told by its value.
-std::string record(const std::string& latitude = "49", const std::string& yaw = "1.5") {
+std::string oxts_record(const std::string& latitude = "49", const std::string& yaw = "1.5") {
   std::string text = latitude + " 8.4 110 0 0 " + yaw;
   for (int k = 6; k < 30; ++k) text += " " + std::to_string(100 + k);
   return text + "\n";
@@ -30,7 +30,7 @@ std::string error_of(const std::string& text) {
 
 TEST(Oxts, EachNumberGoesToItsPlace) {
   const TemporaryFolder folder;
-  const auto frame = read_oxts_file(folder.write("0.txt", record()), kBegin);
+  const auto frame = read_oxts_file(folder.write("0.txt", oxts_record()), kBegin);
   ASSERT_TRUE(frame) << frame.error().message;
   for (const Stamp stamp : {frame->imu.stamp, frame->fix.stamp, frame->wheel.stamp}) EXPECT_EQ(stamp, kBegin);
   EXPECT_EQ(frame->fix.position, geo_point_from_degrees(49, 8.4, 110));
@@ -44,7 +44,7 @@ TEST(Oxts, EachNumberGoesToItsPlace) {
 
 TEST(Oxts, YawCountsFromEastCounterClockwise) {
   const TemporaryFolder folder;
-  const auto frame = read_oxts_file(folder.write("0.txt", record("49", "1.5707963267948966")), kBegin);
+  const auto frame = read_oxts_file(folder.write("0.txt", oxts_record("49", "1.5707963267948966")), kBegin);
   ASSERT_TRUE(frame && frame->imu.q_enu_imu);
   EXPECT_TRUE((*frame->imu.q_enu_imu * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12))
       << "forward is north";
@@ -55,10 +55,10 @@ TEST(Oxts, YawCountsFromEastCounterClockwise) {
 TEST(Oxts, MissingAndInvalidNumbersAreNamedByPosition) {
   EXPECT_THAT(error_of("49 8.4 110"), ::testing::HasSubstr("0.txt: number 4 of 30 is missing or not finite"));
   EXPECT_THAT(error_of(""), ::testing::HasSubstr("number 1 of 30"));
-  EXPECT_THAT(error_of(record("nan")), ::testing::HasSubstr("number 1 of 30"));
-  EXPECT_THAT(error_of(record("49", "1.5m")), ::testing::HasSubstr("number 6 of 30"));
-  EXPECT_THAT(error_of(record("49", "1e999")), ::testing::HasSubstr("number 6 of 30"));
-  EXPECT_EQ(error_of(record() + "31 32"), "no error");
+  EXPECT_THAT(error_of(oxts_record("nan")), ::testing::HasSubstr("number 1 of 30"));
+  EXPECT_THAT(error_of(oxts_record("49", "1.5m")), ::testing::HasSubstr("number 6 of 30"));
+  EXPECT_THAT(error_of(oxts_record("49", "1e999")), ::testing::HasSubstr("number 6 of 30"));
+  EXPECT_EQ(error_of(oxts_record() + "31 32"), "no error");
   const auto none = read_oxts_file("/none/0.txt", kBegin);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().message, "/none/0.txt: cannot be read");
@@ -66,7 +66,7 @@ TEST(Oxts, MissingAndInvalidNumbersAreNamedByPosition) {
 
 TEST(Oxts, APositionOutsideTheEarthIsNoFix) {
   const TemporaryFolder folder;
-  const auto frame = read_oxts_file(folder.write("0.txt", record("91")), kBegin);
+  const auto frame = read_oxts_file(folder.write("0.txt", oxts_record("91")), kBegin);
   ASSERT_TRUE(frame);
   EXPECT_FALSE(frame->fix.valid);
 }

@@ -44,8 +44,8 @@ void write(BagWriter& bag, const ros_codec::VelodyneScan& scan, const char* topi
   ASSERT_TRUE(status) << status.error().message;
 }
 
-std::filesystem::path write_bag(const TemporaryFolder& folder,
-                                const std::vector<ros_codec::VelodyneScan>& scans) {
+std::filesystem::path write_velodyne_bag(const TemporaryFolder& folder,
+                                         const std::vector<ros_codec::VelodyneScan>& scans) {
   auto bag = BagWriter::create(folder.path() / "b").value();
   for (const auto& scan : scans) write(bag, scan);
   return folder.path() / "b";
@@ -65,7 +65,7 @@ void expect_turns(const std::vector<Sample>& samples, std::size_t count) {
 
 TEST(PacketReader, PacketsInABagAreScans) {
   const TemporaryFolder folder;
-  auto reader = open(write_bag(folder, messages(5)));
+  auto reader = open(write_velodyne_bag(folder, messages(5)));
   ASSERT_TRUE(reader) << reader.error().message;
   expect_turns(read_all(**reader), 4);
   const Counters& counters = (*reader)->counters();
@@ -75,7 +75,7 @@ TEST(PacketReader, PacketsInABagAreScans) {
 
 TEST(PacketReader, AScanIsRecordedWithThePacketThatCompletesIt) {
   const TemporaryFolder folder;
-  auto reader = open(write_bag(folder, messages(3)));
+  auto reader = open(write_velodyne_bag(folder, messages(3)));
   while (true) {
     const auto sample = (*reader)->next();
     ASSERT_TRUE(sample);
@@ -92,7 +92,7 @@ TEST(PacketReader, AScanIsRecordedWithThePacketThatCompletesIt) {
 
 TEST(PacketReader, WithoutPointsOnlyTheStampsAreLeft) {
   const TemporaryFolder folder;
-  auto reader = open(write_bag(folder, messages(3)), {}, ScanContent::kStampOnly);
+  auto reader = open(write_velodyne_bag(folder, messages(3)), {}, ScanContent::kStampOnly);
   const auto samples = read_all(**reader);
   ASSERT_EQ(samples.size(), 2u);
   EXPECT_TRUE(std::get<sensor::Scan>(samples[0]).points.empty());
@@ -177,7 +177,7 @@ TEST(PacketReader, RefusedPacketsAreCountedByReason) {
   scans[1].packets[3].data[0] = 0;        // flag
   scans[1].packets[4].data[1205] = 0xa1;  // product
   scans[1].packets[5].data[1204] = 0;     // return mode
-  auto reader = open(write_bag(folder, scans));
+  auto reader = open(write_velodyne_bag(folder, scans));
   EXPECT_EQ(read_all(**reader).size(), 2u) << "a scan with a hole is a scan";
   const Counters& counters = (*reader)->counters();
   EXPECT_EQ(counters.packets_of_wrong_blocks, 1u);
@@ -191,7 +191,7 @@ TEST(PacketReader, PacketsWithoutAStampTakeTheTimeOfRecording) {
   for (auto& scan : scans) {
     for (auto& packet : scan.packets) packet.received = Stamp();
   }
-  auto reader = open(write_bag(folder, scans));
+  auto reader = open(write_velodyne_bag(folder, scans));
   const auto samples = read_all(**reader);
   expect_turns(samples, 3);
   EXPECT_EQ((*reader)->counters().unstamped_messages, 4u * 76u);

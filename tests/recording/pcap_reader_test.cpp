@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using namespace recording::testing;
 
 /// Four tenths of a second of a device, with one position packet and one of a second device.
-std::string capture() {
+std::string velodyne_capture() {
   VelodyneDevice device{Duration(kStart)};
   std::string bytes = pcap_header();
   for (int k = 0; k < 310; ++k) {
@@ -32,7 +32,7 @@ std::string capture() {
 
 TEST(PcapReader, PacketsOfOneDeviceAreScans) {
   const TemporaryFolder folder;
-  folder.write("drive.pcap", capture());
+  folder.write("drive.pcap", velodyne_capture());
   auto reader = open(folder.path() / "drive.pcap");
   ASSERT_TRUE(reader) << reader.error().message;
   std::size_t scans = 0;
@@ -54,7 +54,7 @@ TEST(PcapReader, PacketsOfOneDeviceAreScans) {
 
 TEST(PcapReader, ACaptureThatIsCutIsReadAsFarAsItGoes) {
   const TemporaryFolder folder;
-  const std::string whole = capture();
+  const std::string whole = velodyne_capture();
   folder.write("drive.pcap", whole.substr(0, whole.size() / 2));
   auto reader = open(folder.path() / "drive.pcap");
   ASSERT_TRUE(reader) << reader.error().message;

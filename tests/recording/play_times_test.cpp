@@ -2,19 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "recording/timed_samples.hpp"
+
 namespace fleetmap::recording {
 namespace {
 
+using testing::at;
+using testing::kBegin;
+
 using namespace std::chrono_literals;
 
-const Stamp kBegin = stamp_from_ns(1'700'000'000'000'000'000);
-
-template <class T>
-Sample at(Duration time) {
-  T sample;
-  sample.stamp = kBegin + time;
-  return sample;
-}
 Sample imu(Duration time) { return at<sensor::Imu>(time); }
 Sample wheel(Duration time) { return at<sensor::Wheel>(time); }
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kSecond = 1'000'000'000;
 
 /// An Imu of ROS 1 at a time, whose turn rate is that of a test.
-std::string imu(std::uint64_t ns) {
+std::string imu_message(std::uint64_t ns) {
   std::string bytes = u32(9) + time_of(ns) + counted("imu");
   for (int k = 0; k < 37; ++k) {
     const auto raw = std::bit_cast<std::uint64_t>(k == 3 ? 1.0 : k == 15 ? 0.5 : k == 27 ? 9.81 : 0.0);
@@ -41,8 +41,8 @@ std::string bag(const std::string& compression, bool closed) {
     std::string records = names;
     std::vector<std::uint64_t> ns;
     for (const std::uint64_t time : times) {
-      records +=
-          message(0, time * kSecond, imu(time * kSecond)) + message(1, time * kSecond, counted("hello"));
+      records += message(0, time * kSecond, imu_message(time * kSecond)) +
+                 message(1, time * kSecond, counted("hello"));
       ns.push_back(time * kSecond);
     }
     bytes += chunk(records, compression) + index(0, ns) + index(1, ns);

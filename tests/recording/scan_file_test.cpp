@@ -5,18 +5,16 @@
 
 #include <limits>
 
+#include "recording/float_bytes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {
 
+using testing::float_bytes;
 using ::testing::HasSubstr;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-std::string packed(const std::vector<float>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
-}
 
 class ScanFile : public ::testing::Test {
  protected:
@@ -41,8 +39,8 @@ TEST_F(ScanFile, IsToldByItsName) {
 }
 
 TEST_F(ScanFile, PointsWithoutAReturnAreDroppedAndCounted) {
-  const auto decoded = read(
-      "0.bin", packed({1, 2, 3, 0.5f, kNan, 0, 0, 1, 0, 0, 0, 9, 4, 5, 6, kNan, 0, 0, -0.0f, 1, 0, 0, 1, 2}));
+  const auto decoded = read("0.bin", float_bytes({1, 2, 3, 0.5f, kNan, 0, 0,     1, 0, 0, 0, 9,
+                                                  4, 5, 6, kNan, 0,    0, -0.0f, 1, 0, 0, 1, 2}));
   ASSERT_EQ(decoded.scan.points.size(), 3u);
   EXPECT_EQ(decoded.scan.points[0].position, Eigen::Vector3f(1, 2, 3));
   EXPECT_EQ(decoded.scan.points[0].intensity, 0.5f);
@@ -61,8 +59,9 @@ TEST_F(ScanFile, FieldsOfAPcdStandInAnyOrderAmongOthers) {
   const std::string header =
       "# a comment\nVERSION 0.7\n\nFIELDS intensity z normal rgb y x\nSIZE 4 4 4 1 4 4\nTYPE F F F U F F\n"
       "COUNT 1 1 3 1 1 1\nPOINTS 2\nDATA ";
-  const auto binary = read("0.pcd", header + "binary\n" + packed({0.5f, 3, 7, 8, 9}) + "c" + packed({2, 1}) +
-                                        packed({0.25f, 6, 7, 8, 9}) + "c" + packed({5, 4}));
+  const auto binary =
+      read("0.pcd", header + "binary\n" + float_bytes({0.5f, 3, 7, 8, 9}) + "c" + float_bytes({2, 1}) +
+                        float_bytes({0.25f, 6, 7, 8, 9}) + "c" + float_bytes({5, 4}));
   const auto ascii = read("1.pcd", header + "ascii\n0.5 3 7 8 9 12 2 1\n0.25 6 7 8 9 12 5 4\n");
   for (const auto& decoded : {binary, ascii}) {
     ASSERT_EQ(decoded.scan.points.size(), 2u);
@@ -79,7 +78,7 @@ TEST_F(ScanFile, APcdNeedsNeitherIntensityNorCounts) {
   ASSERT_EQ(decoded.scan.points.size(), 1u);
   EXPECT_EQ(decoded.scan.points[0].intensity, 0.0f);
   EXPECT_EQ(decoded.non_finite_points, 1u);
-  const auto more = read("0.pcd", header + "binary\n" + packed({1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  const auto more = read("0.pcd", header + "binary\n" + float_bytes({1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_EQ(more.scan.points.size(), 2u) << "POINTS counts, not the length of the file";
 }
 
@@ -93,7 +92,7 @@ TEST_F(ScanFile, ErrorsOfAPcdAreNamed) {
   EXPECT_THAT(error_of("0.pcd", usual("")), HasSubstr("PCD header has no DATA line"));
   EXPECT_THAT(error_of("0.pcd", usual("DATA binary_compressed\n")),
               HasSubstr("PCD data 'binary_compressed' is not read; convert it with"));
-  EXPECT_THAT(error_of("0.pcd", usual("DATA binary\n" + packed({1, 2, 3, 4, 5}))),
+  EXPECT_THAT(error_of("0.pcd", usual("DATA binary\n" + float_bytes({1, 2, 3, 4, 5}))),
               HasSubstr("has 1 of 2 points; the file is truncated"));
   EXPECT_THAT(error_of("0.pcd", usual("DATA ascii\n1 2 3\n4 5\n")), HasSubstr("has 1 of 2 points"));
   EXPECT_THAT(error_of("0.pcd", pcd("x y z", "4 4", "F F F", "DATA ascii\n")), HasSubstr("differ in length"));

@@ -3,10 +3,10 @@
 #include <bzlib.h>
 #include <gmock/gmock.h>
 #include <lz4frame.h>
-#include <zstd.h>
 
 #include <fstream>
 
+#include "recording/compressed.hpp"
 #include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,18 +15,13 @@ namespace {
 
 using fleetmap::testing::TemporaryFolder;
 using ::testing::HasSubstr;
+using testing::zstd_of;
 
 /// Larger than a step of the decoders, and neither constant nor random.
 Bytes content() {
   Bytes bytes(700'000);
   for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k] = static_cast<std::uint8_t>(k * k >> 7);
   return bytes;
-}
-
-Bytes zstd_of(const Bytes& bytes) {
-  Bytes packed(ZSTD_compressBound(bytes.size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 1));
-  return packed;
 }
 
 Bytes lz4_of(const Bytes& bytes) {

@@ -9,16 +9,14 @@
 #include <vector>
 
 #include "registration/made_world.hpp"
+#include "registration/prepared.hpp"
 
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector3d;
 using testing::MadeWorld;
-
-PreparedCloud prepared(const cloud::PointCloud& cloud) {
-  return PreparedCloud(cloud, Vector3d::UnitZ(), RegistrationConfig{});
-}
+using testing::prepared;
 
 Pose shift(double x, double y) { return make_pose(Eigen::Quaterniond::Identity(), Vector3d(x, y, 0)); }
 

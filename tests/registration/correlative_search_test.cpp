@@ -7,12 +7,16 @@
 #include <random>
 #include <vector>
 
+#include "registration/made_world.hpp"
+#include "registration/points.hpp"
+
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3d;
-using Points = std::vector<Eigen::Vector3f>;
+using testing::level_pose;
+using testing::Points;
 
 /// Posts of different heights at random places on level ground of 40 m x 40 m.
 Points place() {
@@ -34,10 +38,6 @@ CorrelationGrid map_of(const Points& points, const Pose& T_points_map = Pose::Id
   Points moved;
   for (const auto& p : points) moved.push_back((T_points_map.inverse() * p.cast<double>()).cast<float>());
   return correlation_grid(moved, {});
-}
-
-Pose level_pose(double x, double y, double z, double yaw) {
-  return make_pose(rotation_from_rpy(0, 0, yaw), Vector3d(x, y, z));
 }
 
 CorrelationWindow window_around(const Vector2f& center, float radius_m, float yaw_center, float yaw_half) {

@@ -33,6 +33,10 @@ class MadeWorld {
   double half_extent_ = 70.0;
 };
 
+inline Pose level_pose(double x, double y, double z, double yaw) {
+  return make_pose(rotation_from_rpy(0, 0, yaw), Eigen::Vector3d(x, y, z));
+}
+
 struct ScanPair {
   cloud::PointCloud target;
   cloud::PointCloud source;

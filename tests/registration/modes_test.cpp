@@ -8,23 +8,18 @@
 #include <vector>
 
 #include "registration/made_world.hpp"
+#include "registration/prepared.hpp"
 
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector3d;
 using testing::error_between;
+using testing::level_pose;
 using testing::MadeWorld;
+using testing::prepared;
 
 Pose turn(const Eigen::Matrix3d& R) { return make_pose(R, Vector3d(0, 0, 0)); }
-
-Pose level_pose(double x, double y, double z, double yaw) {
-  return make_pose(rotation_from_rpy(0, 0, yaw), Vector3d(x, y, z));
-}
-
-PreparedCloud prepared(const cloud::PointCloud& cloud, const Vector3d& up = Vector3d::UnitZ()) {
-  return PreparedCloud(cloud, up, RegistrationConfig{});
-}
 
 std::vector<FoundMode> modes_of(const PreparedCloud& target, const PreparedCloud& source,
                                 const std::optional<Prior>& prior) {

@@ -30,14 +30,14 @@ cloud::PointCloud yard() {
   return cloud;
 }
 
-PreparedCloud prepared(const cloud::PointCloud& cloud, const RegistrationConfig& config = {}) {
+PreparedCloud prepared_with(const cloud::PointCloud& cloud, const RegistrationConfig& config = {}) {
   return PreparedCloud(cloud, Vector3d::UnitZ(), config);
 }
 
 TEST(PreparedCloud, EmptyInputGivesEmptyOutput) {
   EXPECT_EQ(PreparedCloud().size(), 0u);
   EXPECT_EQ(PreparedCloud().data(), nullptr);
-  const PreparedCloud empty = prepared({});
+  const PreparedCloud empty = prepared_with({});
   ASSERT_NE(empty.data(), nullptr);
   EXPECT_EQ(empty.size(), 0u);
   EXPECT_EQ(empty.data()->noise_m, 0.0);
@@ -47,7 +47,7 @@ TEST(PreparedCloud, IsThinnedAndHasNoPointsThatAreFarOrNotFinite) {
   RegistrationConfig config;
   config.max_range_m = 20.0f;
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const PreparedCloud cloud = prepared(
+  const PreparedCloud cloud = prepared_with(
       cloud_of(
           {{1.01f, 2.01f, 3.01f}, {1.05f, 2.07f, 3.03f}, {0.0f, nan, 0.0f}, {19.9f, 0, 0}, {12, 12, 12}}),
       config);
@@ -69,7 +69,7 @@ TEST(PreparedCloud, PicksAsManyPointsAsTheConfigurationSaysFromTheWhole) {
   RegistrationConfig config;
   config.fine_points = 300;
   config.coarse_points = 60;
-  const PreparedCloud cloud = prepared(yard(), config);
+  const PreparedCloud cloud = prepared_with(yard(), config);
   const PreparedCloud::Data& data = *cloud.data();
   EXPECT_EQ(data.all.points.size(), cloud.size());
   EXPECT_GT(cloud.size(), 10'000u);
@@ -81,11 +81,11 @@ TEST(PreparedCloud, PicksAsManyPointsAsTheConfigurationSaysFromTheWhole) {
   EXPECT_LT(low, -11.0f);
   EXPECT_GT(high, 11.0f);
   config.fine_points = 1'000'000;
-  EXPECT_EQ(prepared(yard(), config).data()->fine.points.size(), cloud.size());
+  EXPECT_EQ(prepared_with(yard(), config).data()->fine.points.size(), cloud.size());
 }
 
 TEST(PreparedCloud, EveryPointHasItsPatchItsSideAndWhetherItIsFloor) {
-  const PreparedCloud cloud = prepared(yard());
+  const PreparedCloud cloud = prepared_with(yard());
   const MovingPoints& all = cloud.data()->all;
   ASSERT_EQ(all.patches.size(), all.points.size());
   ASSERT_EQ(all.facing.size(), all.points.size());
@@ -116,7 +116,7 @@ TEST(PreparedCloud, EveryPointHasItsPatchItsSideAndWhetherItIsFloor) {
 }
 
 TEST(PreparedCloud, CopiesShareTheirData) {
-  const PreparedCloud cloud = prepared(yard());
+  const PreparedCloud cloud = prepared_with(yard());
   const PreparedCloud copy = cloud;
   EXPECT_EQ(copy.data(), cloud.data());
 }
@@ -125,7 +125,7 @@ TEST(PreparedCloud, HoldsFeaturesAloneForThePapersMethod) {
   RegistrationConfig config;
   config.method = Method::paper;
   const auto scan = testing::MadeWorld(3).scan(Pose::Identity(), 5'000, 0.02, 1);
-  const PreparedCloud cloud = prepared(scan, config);
+  const PreparedCloud cloud = prepared_with(scan, config);
   ASSERT_NE(cloud.data(), nullptr);
   EXPECT_GT(cloud.size(), 100u);
   EXPECT_EQ(cloud.size(), cloud.data()->features.size());

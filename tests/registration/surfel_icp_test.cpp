@@ -7,12 +7,14 @@
 #include <random>
 #include <vector>
 
+#include "registration/points.hpp"
+
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using Points = std::vector<Vector3f>;
+using testing::Points;
 
 /// Square plates across the given axes, at 16 places 16 m apart. Plates of one place do not touch.
 Points plates(std::initializer_list<int> normals, float half_edge, float spacing = 0.2f) {

@@ -7,11 +7,13 @@
 #include <random>
 #include <vector>
 
+#include "registration/points.hpp"
+
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector3f;
-using Points = std::vector<Vector3f>;
+using testing::Points;
 using Reach = SurfelMap::Reach;
 
 constexpr float kNoise = SurfelConfig{}.noise_m;

@@ -12,11 +12,11 @@ namespace {
 using fleetmap::testing::LivoxMessage;
 using ::testing::HasSubstr;
 
-constexpr std::uint64_t kNow = 1'700'000'000'000'000'000;
+constexpr std::uint64_t kTimebase = 1'700'000'000'000'000'000;
 
 LivoxMessage three_points() {
-  return {.stamp = kNow,
-          .timebase = kNow,
+  return {.stamp = kTimebase,
+          .timebase = kTimebase,
           .points = {{.offset_time = 0, .x = 1.5f, .y = -2.5f, .z = 0.25f, .reflectivity = 77, .line = 0},
                      {.offset_time = 50'000'000, .x = 10.0f, .line = 3},
                      {.offset_time = 99'995'000, .x = 20.0f, .line = 5}}};
@@ -29,7 +29,7 @@ TEST(LivoxPoints, AreTheScanThatTheMessageDefines) {
     const auto decoded = decode_livox(message.cdr());
     ASSERT_TRUE(decoded) << decoded.error().message;
     const sensor::Scan& scan = decoded->scan;
-    EXPECT_EQ(to_ns(scan.stamp), static_cast<std::int64_t>(kNow));
+    EXPECT_EQ(to_ns(scan.stamp), static_cast<std::int64_t>(kTimebase));
     EXPECT_TRUE(scan.has_ring && scan.has_time);
     ASSERT_EQ(scan.points.size(), 3u);
     EXPECT_EQ(scan.points[0].position, Eigen::Vector3f(1.5f, -2.5f, 0.25f));
@@ -116,7 +116,7 @@ TEST(LivoxPoints, OtherBytesAreRefused) {
   const Bytes whole = three_points().cdr();
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_FALSE(decode_livox(ByteView(whole).first(size))) << size;
-  LivoxMessage many{.stamp = kNow, .frame = "", .points = {}};
+  LivoxMessage many{.stamp = kTimebase, .frame = "", .points = {}};
   Bytes hostile = many.cdr();
   hostile.back() = 0x7f;  // the highest byte of the number of points
   EXPECT_THAT(decode_livox(hostile).error().message, HasSubstr("too few for 2130706432 points"));

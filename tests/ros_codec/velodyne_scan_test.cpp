@@ -43,7 +43,7 @@ TEST(VelodyneScan, OtherBytesAreRefused) {
   const Bytes whole = encode(two_packets());
   for (std::size_t size = 0; size < whole.size(); size += 3)
     EXPECT_FALSE(decode_velodyne_scan(ByteView(whole).first(size))) << size;
-  Bytes many = encode({stamp_from_ns(kNow), {}}, "");
+  Bytes many = encode(VelodyneScan{stamp_from_ns(kNow), {}}, "");
   ASSERT_EQ(many.size(), 24u);
   many[23] = 0x7f;
   EXPECT_THAT(decode_velodyne_scan(many).error().message, HasSubstr("too few for 2130706432 packets"));

@@ -7,12 +7,12 @@
 #include <functional>
 #include <random>
 
+#include "sensor/stamps.hpp"
+
 namespace fleetmap::sensor {
 namespace {
 
 constexpr double kBucket = 30.0;  // s
-
-Stamp at(double seconds) { return Stamp{} + from_seconds(1.7e9) + from_seconds(seconds); }
 
 /// A sample a second over [begin, end); how many buckets they completed.
 int feed(ClockDrift& drift, double begin, double end, const std::function<double(double)>& lag) {

@@ -12,7 +12,7 @@
 namespace fleetmap::sensor {
 namespace {
 
-constexpr double kNow = 1.7e9;  // s since 1970
+constexpr double kNowSeconds = 1.7e9;  // s since 1970
 
 /// A robot whose sensors have stamps that may be off, and drivers that take their time.
 class Robot {
@@ -68,7 +68,7 @@ class Robot {
     worst[k] =
         std::max(worst[k], std::abs(to_seconds(stamp + offsets.correction(source) - at(sample.taken))));
   }
-  static Stamp at(double seconds) { return Stamp{} + from_seconds(kNow) + from_seconds(seconds); }
+  static Stamp at(double seconds) { return Stamp{} + from_seconds(kNowSeconds) + from_seconds(seconds); }
   std::mt19937 random_;
   double time_ = 0.0;
   double next_[kSources] = {};
@@ -107,8 +107,8 @@ constexpr WrongClock kWrongClocks[] = {
     {"utc_among_tai", -37.0, 0.0, "stamps are 37.00 s behind .*TAI and UTC.*are corrected", 1e-6},
     {"hour_ahead", 3600.0, 0.0, "stamps are 3600.00 s ahead of .*time zone.*are corrected", 1e-6},
     {"hour_behind", -3600.0, 0.0, "stamps are 3600.00 s behind .*time zone.*are corrected", 1e-6},
-    {"boot_time", 7.0 - kNow, 0.0, "stamps are 169999999[23].[0-9]+ s behind .*sensor's start.*are corrected",
-     kDrivers},
+    {"boot_time", 7.0 - kNowSeconds, 0.0,
+     "stamps are 169999999[23].[0-9]+ s behind .*sensor's start.*are corrected", kDrivers},
     {"few_seconds", -2.5, 0.0, "stamps are 2.[3-7][0-9] s behind .*are corrected", kDrivers},
     {"fast", 0.0, 100e-6, "clock runs (9[5-9]|10[0-5]) ppm too fast .*corrected", 0.075},
     {"slow", 0.0, -100e-6, "clock runs (9[5-9]|10[0-5]) ppm too slow .*corrected", 0.075},
@@ -217,7 +217,8 @@ TEST(ClockOffsets, ASensorThatIsAloneIsComparedWithTheComputersAndUsedAsItIs) {
       {37.0, "37.00 s ahead of the computer's clock .*TAI and UTC.*used as they are"},
       {-3600.0, "3600.00 s behind the computer's clock .*time zone.*used as they are"},
       {-2.5, "2.[56][0-9] s behind the computer's clock; .*used as they are"},
-      {7.0 - kNow, "169999999[23].[0-9]+ s behind the computer's clock .*sensor's start.*used as they are"}};
+      {7.0 - kNowSeconds,
+       "169999999[23].[0-9]+ s behind the computer's clock .*sensor's start.*used as they are"}};
   for (const auto& [off, text] : said) {
     Robot robot(3);
     for (const std::size_t k : {kImu, kGps, std::size_t{3}}) robot.there[k] = false;

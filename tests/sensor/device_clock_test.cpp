@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "sensor/stamps.hpp"
+
 namespace fleetmap::sensor {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr Stamp kSwitchedOn = stamp_from_ns(1'795'630'000'000'000'000);
 
 double error(const DeviceClock& clock, Duration device) {
   const auto mapped = clock.to_system(device);

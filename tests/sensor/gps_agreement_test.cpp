@@ -6,14 +6,14 @@
 #include <functional>
 #include <random>
 
+#include "sensor/stamps.hpp"
+
 namespace fleetmap::sensor {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-Stamp at(double seconds) { return stamp_from_ns(1'700'000'000'000'000'000) + from_seconds(seconds); }
 
 /// 80 m with turns to either side, GPS with 1.5 m of slow error; `spoil` gets the seconds since the start.
 std::vector<std::string> findings(const std::function<void(double, GeoPoint&)>& spoil) {

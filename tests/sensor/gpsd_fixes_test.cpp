@@ -2,16 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
-
 #include "fleetmap/core/utc.hpp"
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
 using ::testing::ElementsAre;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// Reports of the manual page gpsd_json(5), with the line ends of the protocol.
 constexpr std::string_view kGreeting =
     "{\"class\":\"VERSION\",\"release\":\"3.22\",\"rev\":\"3.22\",\"proto_major\":3,\"proto_minor\":14}\r\n";

@@ -4,13 +4,13 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <random>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHeight = 0.6;  // m, of the LiDAR above base_link, which lies on the ground
 
 using Surface = std::function<double(double x, double y)>;

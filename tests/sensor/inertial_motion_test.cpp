@@ -21,11 +21,11 @@ std::vector<Imu> circle(const Eigen::Vector3d& gyro_bias, int without_from = 100
   return all;
 }
 
-Stamp at(double seconds) { return stamp_from_ns(0) + from_seconds(seconds); }
+Stamp stamp_at(double seconds) { return stamp_from_ns(0) + from_seconds(seconds); }
 
 TEST(InertialMotion, IntegratesACircle) {
   const Eigen::Vector3d bias(0.01, -0.02, 0.03);
-  const auto motion = integrate(circle(bias), at(0.503), at(2.207), bias);
+  const auto motion = integrate(circle(bias), stamp_at(0.503), stamp_at(2.207), bias);
   ASSERT_TRUE(motion);
   const double angle = 0.7 * 1.704;
   EXPECT_NEAR(motion->seconds, 1.704, 1e-9);
@@ -39,9 +39,9 @@ TEST(InertialMotion, IntegratesACircle) {
 
 TEST(InertialMotion, PartsFollowOneAnother) {
   const std::vector<Imu> imu = circle(Eigen::Vector3d::Zero());
-  const auto whole = integrate(imu, at(0.2), at(2.0), Eigen::Vector3d::Zero());
-  const auto first = integrate(imu, at(0.2), at(1.0), Eigen::Vector3d::Zero());
-  const auto second = integrate(imu, at(1.0), at(2.0), Eigen::Vector3d::Zero());
+  const auto whole = integrate(imu, stamp_at(0.2), stamp_at(2.0), Eigen::Vector3d::Zero());
+  const auto first = integrate(imu, stamp_at(0.2), stamp_at(1.0), Eigen::Vector3d::Zero());
+  const auto second = integrate(imu, stamp_at(1.0), stamp_at(2.0), Eigen::Vector3d::Zero());
   ASSERT_TRUE(whole && first && second);
   const InertialMotion both = first->followed_by(*second);
   EXPECT_LT((both.displacement - whole->displacement).norm(), 1e-9);
@@ -51,10 +51,11 @@ TEST(InertialMotion, PartsFollowOneAnother) {
 
 TEST(InertialMotion, AnIntervalThatIsNotCoveredIsEmpty) {
   const std::vector<Imu> imu = circle(Eigen::Vector3d::Zero());
-  EXPECT_FALSE(integrate(imu, at(-0.1), at(1.0), Eigen::Vector3d::Zero()));
-  EXPECT_FALSE(integrate(imu, at(1.0), at(3.1), Eigen::Vector3d::Zero()));
-  EXPECT_FALSE(integrate(circle(Eigen::Vector3d::Zero(), 50, 90), at(0.2), at(1.0), Eigen::Vector3d::Zero()));
-  EXPECT_FALSE(integrate({}, at(0.0), at(1.0), Eigen::Vector3d::Zero()));
+  EXPECT_FALSE(integrate(imu, stamp_at(-0.1), stamp_at(1.0), Eigen::Vector3d::Zero()));
+  EXPECT_FALSE(integrate(imu, stamp_at(1.0), stamp_at(3.1), Eigen::Vector3d::Zero()));
+  EXPECT_FALSE(integrate(circle(Eigen::Vector3d::Zero(), 50, 90), stamp_at(0.2), stamp_at(1.0),
+                         Eigen::Vector3d::Zero()));
+  EXPECT_FALSE(integrate({}, stamp_at(0.0), stamp_at(1.0), Eigen::Vector3d::Zero()));
 }
 
 }  // namespace

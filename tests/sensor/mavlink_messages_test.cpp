@@ -4,15 +4,14 @@
 
 #include <chrono>
 #include <limits>
-#include <numbers>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "mavlink_golden.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The messages of a type that node-mavlink wrote as v1, v2 and signed v2, with the values of
 /// make_golden.mjs.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "mavlink_golden.hpp"
+#include "sensor/stamps.hpp"
 #include "support/mavlink_packets.hpp"
 
 namespace fleetmap::sensor {
@@ -12,9 +13,7 @@ using namespace fleetmap::testing;
 using namespace std::chrono_literals;
 using Eigen::Vector3d;
 
-constexpr Stamp kSwitchedOn = stamp_from_ns(1'795'630'000'000'000'000);
-
-void expect_near(const Vector3d& value, const Vector3d& expected) {
+void expect_close(const Vector3d& value, const Vector3d& expected) {
   EXPECT_LT((value - expected).norm(), 1e-5) << value.transpose();
 }
 
@@ -26,8 +25,8 @@ TEST(MavlinkSensors, TheGoldenStreamGivesTheSamplesOfItsMessages) {
   EXPECT_NEAR(samples.fixes[0].covariance(0, 0), 0.014 * 0.014, 1e-12);
   EXPECT_NEAR(samples.fixes[0].covariance(2, 2), 0.021 * 0.021, 1e-12);
   ASSERT_EQ(samples.imu.size(), 4u) << "one of SCALED_IMU, before the first of HIGHRES_IMU";
-  expect_near(samples.imu[1].specific_force, {0.25, 0.5, 9.75});
-  expect_near(samples.imu[1].angular_velocity, {0.125, 0.25, -0.5});
+  expect_close(samples.imu[1].specific_force, {0.25, 0.5, 9.75});
+  expect_close(samples.imu[1].angular_velocity, {0.125, 0.25, -0.5});
   // All came at once; the newest was on time.
   EXPECT_NEAR(to_seconds(samples.fixes[2].stamp - (kSwitchedOn + 200s)), 123.400 - 123.470, 1e-6);
 }
@@ -44,8 +43,8 @@ TEST(MavlinkSensors, AxesAreForwardLeftUpAndEastNorthUp) {
         sensors.add(highres_imu(1'000'000, {0, 0, -9.81}, Vector3d::Zero()), kSwitchedOn + 1s);
     ASSERT_EQ(samples.imu.size(), 1u);
     ASSERT_TRUE(samples.imu[0].q_enu_imu);
-    expect_near(*samples.imu[0].q_enu_imu * Vector3d::UnitX(), forward);
-    expect_near(*samples.imu[0].q_enu_imu * samples.imu[0].specific_force, {0, 0, 9.81});
+    expect_close(*samples.imu[0].q_enu_imu * Vector3d::UnitX(), forward);
+    expect_close(*samples.imu[0].q_enu_imu * samples.imu[0].specific_force, {0, 0, 9.81});
   }
 }
 
@@ -55,7 +54,7 @@ TEST(MavlinkSensors, AnOrientationIsTurnedOnToTheSampleAndNotUsedWhenOld) {
   // Clockwise from above with 1 rad/s: north by east.
   auto samples = sensors.add(highres_imu(1'100'000, {0, 0, -9.81}, {0, 0, 1.0}), kSwitchedOn + 1100ms);
   ASSERT_TRUE(samples.imu.at(0).q_enu_imu);
-  expect_near(*samples.imu[0].q_enu_imu * Vector3d::UnitX(), {std::sin(0.1), std::cos(0.1), 0.0});
+  expect_close(*samples.imu[0].q_enu_imu * Vector3d::UnitX(), {std::sin(0.1), std::cos(0.1), 0.0});
   samples = sensors.add(highres_imu(1'300'000, {0, 0, -9.81}, {0, 0, 1.0}), kSwitchedOn + 1300ms);
   EXPECT_FALSE(samples.imu.at(0).q_enu_imu);
 }

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "sensor/stamps.hpp"
+
 namespace fleetmap::sensor {
 namespace {
-
-Stamp at(double seconds) { return Stamp{} + from_seconds(1.7e9) + from_seconds(seconds); }
 
 /// An envelope of samples that come every `period` s.
 struct Samples {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sensor/stamps.hpp"
+
 namespace fleetmap::sensor {
 namespace {
 
@@ -14,10 +16,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-Stamp at(double seconds) { return stamp_from_ns(1'700'000'000'000'000'000) + from_seconds(seconds); }
-
 /// A robot that drives 1 m/s and swings to either side; what its sensors have wrong.
-struct Robot {
+struct SwayingRobot {
   double wheel_scale = 1.0, wheel_turn_scale = 1.0;
   Eigen::Matrix3d R_imu_base = Eigen::Matrix3d::Identity();  ///< that the driver does not know of
   double gyro_scale = 1.0, gyro_late = 0.0;                  ///< late: s
@@ -52,74 +52,79 @@ struct Robot {
 };
 
 TEST(MotionAgreement, IsSilentWhereAllAgreeOrNothingIsCompared) {
-  EXPECT_THAT(Robot{}.findings(), IsEmpty());
-  EXPECT_THAT((Robot{.with_gyro = false, .with_wheels = false}.findings()), IsEmpty());
-  EXPECT_THAT((Robot{.wheel_scale = 1.1, .wheel_turn_scale = 0.7, .gyro_scale = 1.03}.findings()), IsEmpty())
+  EXPECT_THAT(SwayingRobot{}.findings(), IsEmpty());
+  EXPECT_THAT((SwayingRobot{.with_gyro = false, .with_wheels = false}.findings()), IsEmpty());
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 1.1, .wheel_turn_scale = 0.7, .gyro_scale = 1.03}.findings()),
+              IsEmpty())
       << "tyres, skid steering and a cheap gyro";
 }
 
 TEST(MotionAgreement, SaysWhatWasNotComparedAndHowFarTheRobotMoved) {
-  EXPECT_EQ(Robot{}.driven().not_compared(), std::nullopt);
-  EXPECT_EQ((Robot{.with_wheels = false}.driven().not_compared()), std::nullopt);
-  EXPECT_THAT((Robot{.with_gyro = false, .with_wheels = false}.driven().not_compared().value_or("")),
+  EXPECT_EQ(SwayingRobot{}.driven().not_compared(), std::nullopt);
+  EXPECT_EQ((SwayingRobot{.with_wheels = false}.driven().not_compared()), std::nullopt);
+  EXPECT_THAT((SwayingRobot{.with_gyro = false, .with_wheels = false}.driven().not_compared().value_or("")),
               HasSubstr("neither the IMU nor wheels"));
-  EXPECT_THAT((Robot{.seconds = 2.0}.driven().not_compared().value_or("")),
+  EXPECT_THAT((SwayingRobot{.seconds = 2.0}.driven().not_compared().value_or("")),
               ContainsRegex("the speed of the wheels, turns, stamps: .* drove 1\\.[0-9]+ m and turned by"));
-  EXPECT_THAT((Robot{.speed = 0.1}.driven().not_compared().value_or("")),
+  EXPECT_THAT((SwayingRobot{.speed = 0.1}.driven().not_compared().value_or("")),
               StartsWith("the speed of the wheels: "))
       << "it turned nearly on the spot";
 }
 
 TEST(MotionAgreement, TheUnitAndTheSignOfTheWheelsAreNamed) {
-  EXPECT_THAT((Robot{.wheel_scale = 3.6}.findings()), ElementsAre(HasSubstr("km/h")));
-  EXPECT_THAT((Robot{.wheel_scale = 1000.0}.findings()), ElementsAre(HasSubstr("mm/s")));
-  EXPECT_THAT((Robot{.wheel_scale = 1.5}.findings()), ElementsAre(HasSubstr("diameter")));
-  EXPECT_THAT((Robot{.wheel_scale = -1.0}.findings()), ElementsAre(HasSubstr("drives backwards")));
-  EXPECT_THAT((Robot{.wheel_scale = 0.0}.findings()), ElementsAre(HasSubstr("it stands while")));
-  EXPECT_THAT((Robot{.wheel_turn_scale = -1.0}.findings()),
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 3.6}.findings()), ElementsAre(HasSubstr("km/h")));
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 1000.0}.findings()), ElementsAre(HasSubstr("mm/s")));
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 1.5}.findings()), ElementsAre(HasSubstr("diameter")));
+  EXPECT_THAT((SwayingRobot{.wheel_scale = -1.0}.findings()), ElementsAre(HasSubstr("drives backwards")));
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 0.0}.findings()), ElementsAre(HasSubstr("it stands while")));
+  EXPECT_THAT((SwayingRobot{.wheel_turn_scale = -1.0}.findings()),
               ElementsAre(HasSubstr("sign of twist.angular.z")));
-  EXPECT_THAT((Robot{.wheel_turn_scale = 0.0}.findings()), ElementsAre(HasSubstr("angular.z is not filled")));
-  EXPECT_THAT((Robot{.wheel_turn_scale = 57.3}.findings()),
+  EXPECT_THAT((SwayingRobot{.wheel_turn_scale = 0.0}.findings()),
+              ElementsAre(HasSubstr("angular.z is not filled")));
+  EXPECT_THAT((SwayingRobot{.wheel_turn_scale = 57.3}.findings()),
               ElementsAre(HasSubstr("the unit or the track width")));
 }
 
 TEST(MotionAgreement, TheYawOfTheLidarIsNamedWithItsSign) {
   // A LiDAR turned to the left by 90 deg, unknown to the configuration, sees the robot move to its right.
   EXPECT_THAT(
-      (Robot{.lidar_yaw = 0.5 * std::numbers::pi}.findings()),
+      (SwayingRobot{.lidar_yaw = 0.5 * std::numbers::pi}.findings()),
       ElementsAre(ContainsRegex("(89\\.[0-9]|90|90\\.[0-9]) deg to the right of where the wheels drive.*"
                                 "should have (89\\.[0-9]|90|90\\.[0-9]) deg more yaw")));
-  EXPECT_THAT((Robot{.lidar_yaw = 0.1}.findings()), IsEmpty());
+  EXPECT_THAT((SwayingRobot{.lidar_yaw = 0.1}.findings()), IsEmpty());
 }
 
 TEST(MotionAgreement, AxesAndSignsOfTheGyroAreNamed) {
   Eigen::Matrix3d swapped;
   swapped << 0, 0, 1, 0, 1, 0, 1, 0, 0;  // x and z
-  EXPECT_THAT((Robot{.R_imu_base = swapped}.findings()),
+  EXPECT_THAT((SwayingRobot{.R_imu_base = swapped}.findings()),
               ElementsAre(HasSubstr("turns about x: its axes are swapped")));
-  EXPECT_THAT((Robot{.R_imu_base = -swapped}.findings()), ElementsAre(HasSubstr("turns about minus x")));
-  EXPECT_THAT((Robot{.gyro_scale = -1.0}.findings()), ElementsAre(HasSubstr("the sign of its z axis")));
-  EXPECT_THAT((Robot{.gyro_scale = 0.5}.findings()),
+  EXPECT_THAT((SwayingRobot{.R_imu_base = -swapped}.findings()),
+              ElementsAre(HasSubstr("turns about minus x")));
+  EXPECT_THAT((SwayingRobot{.gyro_scale = -1.0}.findings()),
+              ElementsAre(HasSubstr("the sign of its z axis")));
+  EXPECT_THAT((SwayingRobot{.gyro_scale = 0.5}.findings()),
               ElementsAre(HasSubstr("0.5 times as fast as LiDAR and wheels")));
-  EXPECT_THAT((Robot{.gyro_scale = 0.0, .with_wheels = false}.findings()),
+  EXPECT_THAT((SwayingRobot{.gyro_scale = 0.0, .with_wheels = false}.findings()),
               ElementsAre(HasSubstr("as fast as the LiDAR")));
 }
 
 TEST(MotionAgreement, WhereTheOdometryIsLostTheWheelsNameTheGyro) {
-  EXPECT_THAT((Robot{.gyro_scale = -1.0, .lost = true}.findings()),
+  EXPECT_THAT((SwayingRobot{.gyro_scale = -1.0, .lost = true}.findings()),
               ElementsAre(HasSubstr("turns right where the wheels turn left")));
-  EXPECT_THAT(Robot{.lost = true}.findings(), IsEmpty());
-  EXPECT_THAT((Robot{.wheel_turn_scale = 0.6, .lost = true}.findings()), IsEmpty()) << "skid steering";
+  EXPECT_THAT(SwayingRobot{.lost = true}.findings(), IsEmpty());
+  EXPECT_THAT((SwayingRobot{.wheel_turn_scale = 0.6, .lost = true}.findings()), IsEmpty()) << "skid steering";
 }
 
 TEST(MotionAgreement, ALidarThatTwoContradictIsMirrored) {
-  EXPECT_THAT((Robot{.lidar_turn_sign = -1.0}.findings()), ElementsAre(HasSubstr("mirrored")));
+  EXPECT_THAT((SwayingRobot{.lidar_turn_sign = -1.0}.findings()), ElementsAre(HasSubstr("mirrored")));
 }
 
 TEST(MotionAgreement, StampsThatAreWrongByATenthOfASecondAreNamed) {
-  EXPECT_THAT((Robot{.gyro_late = 0.1}.findings()), ElementsAre(HasSubstr("100 ms after the LiDAR")));
-  EXPECT_THAT((Robot{.gyro_late = -0.2}.findings()), ElementsAre(HasSubstr("200 ms before the LiDAR")));
-  EXPECT_THAT((Robot{.gyro_late = 0.02}.findings()), IsEmpty());
+  EXPECT_THAT((SwayingRobot{.gyro_late = 0.1}.findings()), ElementsAre(HasSubstr("100 ms after the LiDAR")));
+  EXPECT_THAT((SwayingRobot{.gyro_late = -0.2}.findings()),
+              ElementsAre(HasSubstr("200 ms before the LiDAR")));
+  EXPECT_THAT((SwayingRobot{.gyro_late = 0.02}.findings()), IsEmpty());
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
-
 #include "fleetmap/core/utc.hpp"
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::sensor {
 namespace {
@@ -12,7 +11,6 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// Examples of receivers' manuals, checksums as printed there.
 constexpr std::string_view kGga = "$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n";
 constexpr std::string_view kRmc = "$GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W*6A\r\n";

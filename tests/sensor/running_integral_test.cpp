@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "sensor/stamps.hpp"
+
 namespace fleetmap::sensor {
 namespace {
-
-Stamp at(double seconds) { return stamp_from_ns(1'700'000'000'000'000'000) + from_seconds(seconds); }
 
 TEST(RunningIntegral, OfALinearRateIsExactBetweenSamples) {
   RunningIntegral integral;

@@ -9,15 +9,15 @@
 #include <numbers>
 #include <random>
 
+#include "fleetmap/geometry/degree.hpp"
+#include "sensor/stamps.hpp"
+
 namespace fleetmap::sensor {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-const Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
 
 /// The k-th of 100 samples a second of a robot that shakes a little and turns about z.
 Imu sample(int k, double rate = 0.0) {

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <set>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint8_t kProducts[] = {0x21, 0x22, 0x24, 0x28};
 
 TEST(VelodyneModel, RingsRiseWithTheElevation) {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <array>
-#include <numbers>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "support/velodyne_packets.hpp"
 
 namespace fleetmap::sensor {
@@ -13,8 +13,6 @@ namespace {
 using fleetmap::testing::put_u16;
 using fleetmap::testing::VelodyneDevice;
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Bytes vlp16_packet(double azimuth = 90.0) { return VelodyneDevice(Duration{}, azimuth).next().bytes; }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 
+#include "sensor/stamps.hpp"
 #include "support/velodyne_packets.hpp"
 
 namespace fleetmap::sensor {
@@ -14,7 +15,6 @@ using fleetmap::testing::VelodyneDevice;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr Stamp kStart = Stamp(seconds(1'700'000'000));
 constexpr Duration kDelay = std::chrono::microseconds(700);
 
 VelodyneDevice device_at(Stamp start, double azimuth = 0.0) {

@@ -11,29 +11,28 @@ using fleetmap::testing::expect_accepted;
 using fleetmap::testing::expect_refused;
 using fleetmap::testing::kNaN;
 
-using Config = FenceConfig;
-
 TEST(FenceConfig, LengthsLieInTheirRanges) {
   struct Range {
-    double Config::*value;
+    double FenceConfig::*value;
     double low, high;
     const char* name;
   };
-  for (const Range& range : {Range{&Config::height, 0.5, 5.0, "height"},
-                             {&Config::post_spacing, 1.0, 10.0, "post_spacing"},
-                             {&Config::wire_spacing, 0.04, 1.0, "wire_spacing"},
-                             {&Config::wire_width, 0.001, 0.05, "wire_width"}}) {
-    expect_accepted(Config{}, range.value, {range.low, range.high});
-    expect_refused(Config{}, range.value, {0.99 * range.low, 1.01 * range.high, kNaN<double>}, range.name);
+  for (const Range& range : {Range{&FenceConfig::height, 0.5, 5.0, "height"},
+                             {&FenceConfig::post_spacing, 1.0, 10.0, "post_spacing"},
+                             {&FenceConfig::wire_spacing, 0.04, 1.0, "wire_spacing"},
+                             {&FenceConfig::wire_width, 0.001, 0.05, "wire_width"}}) {
+    expect_accepted(FenceConfig{}, range.value, {range.low, range.high});
+    expect_refused(FenceConfig{}, range.value, {0.99 * range.low, 1.01 * range.high, kNaN<double>},
+                   range.name);
   }
 }
 
-TEST(FenceConfig, APanelMayHaveNoWires) { expect_accepted(Config{}, &Config::wire_spacing, {0.0}); }
+TEST(FenceConfig, APanelMayHaveNoWires) { expect_accepted(FenceConfig{}, &FenceConfig::wire_spacing, {0.0}); }
 
 TEST(FenceConfig, WithoutAFenceItsLengthsDoNotMatter) {
-  Config none;
+  FenceConfig none;
   none.enabled = false;
-  expect_accepted(none, &Config::height, {-1.0, kNaN<double>});
+  expect_accepted(none, &FenceConfig::height, {-1.0, kNaN<double>});
 }
 
 }  // namespace

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
+#include "sim/stamps.hpp"
+
 namespace fleetmap::sim {
 namespace {
 
 const LocalFrame kSite(geo_point_from_degrees(49.0, 8.4, 110.0));
 
-Stamp at(double seconds) { return stamp_from_ns(std::llround(seconds * 1e9)); }
-
-GpsSpec perfect() {
+GpsSpec perfect_gps() {
   GpsSpec spec;
   spec.white_sigma = spec.drift_sigma = 0.0;
   return spec;
@@ -31,9 +31,9 @@ std::vector<Eigen::Vector3d> errors(const GpsSpec& spec, std::uint64_t seed, int
 
 TEST(GpsModel, APerfectReceiverIsWhereItsAntennaIs) {
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(150, -70, 12)}) {
-    for (const Eigen::Vector3d& error : errors(perfect(), 1, 5, p)) EXPECT_LT(error.norm(), 1e-6);
+    for (const Eigen::Vector3d& error : errors(perfect_gps(), 1, 5, p)) EXPECT_LT(error.norm(), 1e-6);
   }
-  GpsModel gps(perfect(), kSite, 1);
+  GpsModel gps(perfect_gps(), kSite, 1);
   const auto fix = gps.measure(at(7.5), 7.5, {0, 0, 0});
   ASSERT_TRUE(fix);
   EXPECT_EQ(fix->stamp, at(7.5));
@@ -53,7 +53,7 @@ TEST(GpsModel, TheReportedCovarianceIsThatOfWhiteNoiseAndDrift) {
 }
 
 TEST(GpsModel, WhiteErrorsHaveTheirSigmaAndNoMemory) {
-  GpsSpec spec = perfect();
+  GpsSpec spec = perfect_gps();
   spec.white_sigma = 0.5;
   spec.vertical_factor = 3.0;
   constexpr int kFixes = 20'000;
@@ -70,7 +70,7 @@ TEST(GpsModel, WhiteErrorsHaveTheirSigmaAndNoMemory) {
 }
 
 TEST(GpsModel, OneErrorDoesNotChangeTheLuckOfAnother) {
-  GpsSpec white = perfect(), drift = perfect(), wave = perfect(), jumps = perfect(), all;
+  GpsSpec white = perfect_gps(), drift = perfect_gps(), wave = perfect_gps(), jumps = perfect_gps(), all;
   white.white_sigma = all.white_sigma = 0.3;
   drift.drift_sigma = all.drift_sigma = 1.0;
   wave.altitude_wave = all.altitude_wave = 2.0;

@@ -11,7 +11,7 @@
 namespace fleetmap::sim {
 namespace {
 
-constexpr double kStep = 0.15;
+constexpr double kStepHeight = 0.15;
 
 Grid grid(double cell = 0.25, int columns = 40, int rows = 40) { return {{0, 0}, cell, columns, rows}; }
 Eigen::Vector2d center(const Grid& grid, int column, int row) {
@@ -34,7 +34,7 @@ TEST(GroundRaster, HoldsTheHeightAtTheCentreOfEachCell) {
   const auto plane = [](double x, double y) { return 3.0 + 0.2 * x - 0.1 * y; };
   const Mesh mesh = test_ground({-1, -1}, {11, 11}, plane);
   const Grid g = grid();
-  const GroundRaster ground = ground_raster(mesh, g, kStep);
+  const GroundRaster ground = ground_raster(mesh, g, kStepHeight);
   ASSERT_EQ(ground.heights.size(), 1600u);
   for (int row = 0; row < g.rows; ++row) {
     for (int column = 0; column < g.columns; ++column) {
@@ -51,7 +51,7 @@ TEST(GroundRaster, IsTheLowestSurfaceWithWhatLiesOnItUpToAStep) {
   append(mesh, test_box({4, 4, 0.0}, {5, 5, 0.3}));  // a block: too high
   append(mesh, test_box({7, 7, 2.0}, {8, 8, 2.1}));  // a roof
   const Grid g = grid();
-  const GroundRaster ground = ground_raster(mesh, g, kStep);
+  const GroundRaster ground = ground_raster(mesh, g, kStepHeight);
   EXPECT_NEAR(height_at(ground, g, 1.4, 1.6), 0.1f, 1e-6f);
   EXPECT_NEAR(height_at(ground, g, 4.4, 4.6), 0.0f, 1e-6f);
   EXPECT_NEAR(height_at(ground, g, 7.4, 7.6), 0.0f, 1e-6f);
@@ -62,7 +62,7 @@ TEST(GroundRaster, HolesTakeTheHeightAroundThemAndCountTheStepsToIt) {
   Mesh mesh = level({-1, -1}, {4, 11}, 1.0);
   append(mesh, level({6, -1}, {11, 11}, 2.0));
   const Grid g = grid();  // columns 16 to 23 have no ground
-  const GroundRaster ground = ground_raster(mesh, g, kStep);
+  const GroundRaster ground = ground_raster(mesh, g, kStepHeight);
   const int expected[] = {0, 1, 2, 3, 4, 4, 3, 2, 1, 0};
   for (int k = 0; k < 10; ++k) EXPECT_EQ(ground.gap[g.index(15 + k, 20)], expected[k]) << k;
   EXPECT_EQ(ground.heights[g.index(18, 20)], 1.0f);
@@ -72,7 +72,7 @@ TEST(GroundRaster, HolesTakeTheHeightAroundThemAndCountTheStepsToIt) {
 TEST(GroundRaster, FarFromAnyGroundTheCountIsSaturated) {
   const Mesh mesh = level({-1, -1}, {1, 1}, 5.0);
   const Grid g = grid(0.25, 400, 3);
-  const GroundRaster ground = ground_raster(mesh, g, kStep);
+  const GroundRaster ground = ground_raster(mesh, g, kStepHeight);
   EXPECT_EQ(ground.gap[g.index(3, 0)], 0);
   EXPECT_EQ(ground.gap[g.index(104, 0)], 101);
   EXPECT_EQ(ground.gap[g.index(399, 0)], 255);
@@ -84,10 +84,10 @@ TEST(GroundRaster, AMeshOfWallsAloneHasNone) {
   mesh.vertices = {{1, 1, 0}, {9, 9, 0}, {9, 9, 3}};
   mesh.triangles = {{0, 1, 2}};
   mesh.materials = {Material::kConcrete};
-  const GroundRaster ground = ground_raster(mesh, grid(), kStep);
+  const GroundRaster ground = ground_raster(mesh, grid(), kStepHeight);
   EXPECT_TRUE(std::ranges::all_of(ground.heights, [](float z) { return z == 0.0f; }));
   mesh.vertices = {{1, 1, 0}, {1, 1, 0}, {9, 9, 3}};
-  EXPECT_TRUE(std::ranges::all_of(ground_raster(mesh, grid(), kStep).heights, [](float z) {
+  EXPECT_TRUE(std::ranges::all_of(ground_raster(mesh, grid(), kStepHeight).heights, [](float z) {
     return z == 0.0f;
   })) << "nor has one without an area";
 }
@@ -111,7 +111,7 @@ TEST(ObstacleRaster, AThinPostBlocksTheCellThatItStandsIn) {
   Mesh mesh = level({-1, -1}, {11, 11});
   append(mesh, test_box({5.02, 5.02, -0.5}, {5.04, 5.04, 2}));  // no cell's centre is in it
   const Grid g = grid();
-  const auto blocked = obstacle_raster(mesh, g, ground_raster(mesh, g, kStep), {});
+  const auto blocked = obstacle_raster(mesh, g, ground_raster(mesh, g, kStepHeight), {});
   EXPECT_EQ(std::ranges::count(blocked, 1), 1);
   EXPECT_EQ(blocked[g.index(20, 20)], 1);
 }
@@ -125,7 +125,7 @@ TEST(ObstacleRaster, AWireAcrossBlocksEachCellThatItCrosses) {
   mesh.triangles.push_back({first, first + 1, first + 2});
   mesh.materials.push_back(Material::kMetal);
   const Grid g = grid();
-  const auto blocked = obstacle_raster(mesh, g, ground_raster(mesh, g, kStep), {});
+  const auto blocked = obstacle_raster(mesh, g, ground_raster(mesh, g, kStepHeight), {});
   std::set<std::size_t> crossed;
   for (double part = 0.0; part <= 1.0; part += 1e-4) {
     const Eigen::Vector2d p = Eigen::Vector2d(1.1, 1.1) + part * Eigen::Vector2d(7.8, 3.8);
@@ -157,7 +157,7 @@ TEST(ObstacleRaster, HolesAreBridgedHalfAMetreFromSolidGround) {
   Mesh mesh = level({-1, -1}, {4, 11});
   append(mesh, level({6, -1}, {11, 11}));
   const Grid g = grid();
-  const auto blocked = obstacle_raster(mesh, g, ground_raster(mesh, g, kStep), {});
+  const auto blocked = obstacle_raster(mesh, g, ground_raster(mesh, g, kStepHeight), {});
   const int expected[] = {0, 0, 0, 1, 1, 1, 1, 0, 0, 0};
   for (int k = 0; k < 10; ++k) EXPECT_EQ(blocked[g.index(15 + k, 20)], expected[k]) << k;
 }

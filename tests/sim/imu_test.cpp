@@ -4,24 +4,18 @@
 
 #include <cmath>
 
+#include "sim/perfect_imu.hpp"
+#include "sim/stamps.hpp"
+
 namespace fleetmap::sim {
 namespace {
-
-Stamp at(double seconds) { return stamp_from_ns(std::llround(seconds * 1e9)); }
-
-ImuSpec perfect() {
-  ImuSpec spec;
-  spec.gyro_noise = spec.accel_noise = spec.gyro_bias_sigma = spec.accel_bias_sigma = 0.0;
-  spec.gyro_bias_walk = spec.accel_bias_walk = spec.tilt_sigma = spec.heading_sigma = 0.0;
-  return spec;
-}
 
 ImuMotion motion(double t, const Eigen::Matrix3d& R, const Eigen::Vector3d& velocity = {0, 0, 0}) {
   return {at(t), make_pose(R, {1, 2, 3}), velocity};
 }
 
 TEST(ImuModel, AtRestItFeelsGravityInItsOwnFrame) {
-  ImuSpec spec = perfect();
+  ImuSpec spec = perfect_imu();
   spec.gravity = 10.0;
   const Eigen::Matrix3d R = rotation_from_rpy(0.3, -0.2, 1.1);
   const sensor::Imu sample = ImuModel(spec, 1).measure(motion(1.0, R), motion(1.01, R));
@@ -35,7 +29,7 @@ TEST(ImuModel, AtRestItFeelsGravityInItsOwnFrame) {
 TEST(ImuModel, ASampleIsTheMeanOverItsInterval) {
   const Eigen::Matrix3d before = rotation_from_rpy(0.0, 0.0, 0.5), now = rotation_from_rpy(0.0, 0.0, 0.7);
   const sensor::Imu sample =
-      ImuModel(perfect(), 1).measure(motion(0.0, before, {1, 0, 0}), motion(0.1, now, {1, 0.5, 0}));
+      ImuModel(perfect_imu(), 1).measure(motion(0.0, before, {1, 0, 0}), motion(0.1, now, {1, 0.5, 0}));
   EXPECT_LT((sample.angular_velocity - Eigen::Vector3d(0, 0, 2.0)).norm(), 1e-9);
   // 5 m/s^2 to the north, seen from half of the turn.
   const Eigen::Vector3d force(5.0 * std::sin(0.6), 5.0 * std::cos(0.6), 9.80665);
@@ -59,7 +53,7 @@ std::pair<double, double> deviation(const ImuSpec& spec, double dt, int samples)
 }
 
 TEST(ImuModel, NoiseShrinksWithTheRootOfTheInterval) {
-  ImuSpec spec = perfect();
+  ImuSpec spec = perfect_imu();
   spec.gyro_noise = 2e-3;
   spec.accel_noise = 3e-2;
   for (const double dt : {0.01, 0.04}) {
@@ -70,7 +64,7 @@ TEST(ImuModel, NoiseShrinksWithTheRootOfTheInterval) {
 }
 
 TEST(ImuModel, BiasesWalkWithTheRootOfTime) {
-  ImuSpec spec = perfect();
+  ImuSpec spec = perfect_imu();
   spec.gyro_bias_walk = 1e-3;
   spec.accel_bias_walk = 2e-2;
   for (const int samples : {1, 16}) {
@@ -81,7 +75,7 @@ TEST(ImuModel, BiasesWalkWithTheRootOfTime) {
 }
 
 TEST(ImuModel, OrientationIsOptionalAndStatesItsVariances) {
-  ImuSpec spec = perfect();
+  ImuSpec spec = perfect_imu();
   spec.tilt_sigma = 0.02;
   spec.heading_sigma = 0.3;
   const ImuMotion before = motion(0.0, Eigen::Matrix3d::Identity()),

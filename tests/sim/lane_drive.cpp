@@ -8,7 +8,6 @@ namespace fleetmap::testing {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kStep = LaneDrive::kStep;
 
 /// From rest to rest over `distance`, at most at `rate`.
 template <class Visit>
@@ -16,8 +15,8 @@ void ramp(double distance, double rate, double acceleration, Visit visit) {
   double speed = 0.0, done = 0.0;
   while (done < distance - 1e-9) {
     const double brake = std::sqrt(2.0 * acceleration * (distance - done));
-    speed = std::min({speed + acceleration * kStep, rate, std::max(brake, 1e-3)});
-    done = std::min(distance, done + speed * kStep);
+    speed = std::min({speed + acceleration * LaneDrive::kStep, rate, std::max(brake, 1e-3)});
+    done = std::min(distance, done + speed * LaneDrive::kStep);
     visit(done);
   }
 }
@@ -49,7 +48,7 @@ Pose LaneDrive::base(std::size_t step) const {
 
 Pose LaneDrive::shaken(std::size_t step) const {
   if (how_.shake <= 0.0) return Pose::Identity();
-  const double a = 2.0 * kPi * how_.shake * kStep * static_cast<double>(step);
+  const double a = 2.0 * kPi * how_.shake * LaneDrive::kStep * static_cast<double>(step);
   const Eigen::Vector3d way(std::sin(a + phases_[0]), std::sin(1.1 * a + phases_[1]),
                             0.5 * std::sin(0.9 * a + phases_[2]));
   const Eigen::Vector3d turn(std::sin(1.05 * a + phases_[3]), std::sin(a + phases_[4]),
@@ -66,7 +65,7 @@ void LaneDrive::follow(const std::vector<Eigen::Vector2d>& path) {
     return std::atan2(b.y() - a.y(), b.x() - a.x());
   };
   Planar now{path[0], toward(path[0], path[1]), 0.0};
-  for (double t = 0.0; t < 1.0; t += kStep) planar_.push_back(now);
+  for (double t = 0.0; t < 1.0; t += LaneDrive::kStep) planar_.push_back(now);
   for (std::size_t corner = 1; corner < path.size(); ++corner) {
     const double turn = wrap_angle(toward(now.at, path[corner]) - now.yaw);
     const double begin = now.yaw;

@@ -10,8 +10,6 @@
 namespace fleetmap::testing {
 namespace {
 
-constexpr double kStep = LaneDrive::kStep;
-
 struct Run {
   odometry::Loam loam;
   bool gyro;
@@ -37,13 +35,13 @@ class Gyro {
  public:
   Gyro(const LaneDrive& drive, std::uint64_t seed) : drive_(drive), random_(seed) {}
   sensor::Imu at(double seconds) {
-    const auto step = static_cast<std::size_t>(seconds / kStep);
+    const auto step = static_cast<std::size_t>(seconds / LaneDrive::kStep);
     sensor::Imu imu;
     imu.stamp = Stamp{from_seconds(seconds)};
-    imu.angular_velocity =
-        so3_log(drive_.base(step).linear().transpose() * drive_.base(step + 5).linear()) / (5 * kStep) +
-        Eigen::Vector3d(0.003, -0.002, 0.004) +
-        0.003 * Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_));
+    imu.angular_velocity = so3_log(drive_.base(step).linear().transpose() * drive_.base(step + 5).linear()) /
+                               (5 * LaneDrive::kStep) +
+                           Eigen::Vector3d(0.003, -0.002, 0.004) +
+                           0.003 * Eigen::Vector3d(normal_(random_), normal_(random_), normal_(random_));
     return imu;
   }
 
@@ -60,9 +58,10 @@ Pose T_base_mast() { return make_pose(rotation_from_rpy(0.0, 0.02, 0.0), {0.1, 0
 sim::ScanJob scan_of(const LaneDrive& drive, const sim::LidarSpec& lidar, std::uint64_t number,
                      std::uint64_t seed) {
   const double period = 1.0 / lidar.rate, begin = period * static_cast<double>(number);
-  const auto first = static_cast<std::size_t>(begin / kStep);
-  sim::ScanJob job{Stamp{from_seconds(begin)}, from_seconds(kStep), {}, number, seed};
-  for (std::size_t step = 0; static_cast<double>(step) * kStep <= period + kStep; ++step) {
+  const auto first = static_cast<std::size_t>(begin / LaneDrive::kStep);
+  sim::ScanJob job{Stamp{from_seconds(begin)}, from_seconds(LaneDrive::kStep), {}, number, seed};
+  for (std::size_t step = 0; static_cast<double>(step) * LaneDrive::kStep <= period + LaneDrive::kStep;
+       ++step) {
     job.T_enu_lidar.push_back(drive.base(first + step) * drive.shaken(first + step) * T_base_mast());
   }
   return job;
@@ -91,7 +90,7 @@ std::vector<LaneOdometry> odometry_of_lanes(const sim::World& world, const sim::
     if (k % static_cast<std::uint64_t>(how.every) != 0) continue;
     sensor::Scan scan = sim::cast_scan(scene, lidar, scan_of(drive, lidar, k, seed));
     if (how.keep < 1.0) std::erase_if(scan.points, [&](const auto&) { return uniform(random) > how.keep; });
-    truth.push_back(drive.base(static_cast<std::size_t>(begin / kStep)));
+    truth.push_back(drive.base(static_cast<std::size_t>(begin / LaneDrive::kStep)));
     for (Run& run : runs) {
       const double before = thread_cpu_seconds();
       const auto update = run.loam.add_scan(scan);

@@ -15,7 +15,7 @@ LidarSpec livox() {
   return spec;
 }
 
-std::string error(const LidarSpec& spec) {
+std::string spec_error(const LidarSpec& spec) {
   const Status status = spec.validate();
   return status ? "none" : status.error().message;
 }
@@ -32,46 +32,46 @@ TEST(LidarSpec, FieldsHaveBounds) {
 TEST(LidarSpec, FarIsBeyondNear) {
   LidarSpec spec = vlp16_spec();
   spec.max_range = 1e4;
-  EXPECT_EQ(error(spec), "none");
+  EXPECT_EQ(spec_error(spec), "none");
   spec.max_range = 10'001.0;
-  EXPECT_THAT(error(spec), StartsWith("max_range: must be 0 to 10000 m"));
+  EXPECT_THAT(spec_error(spec), StartsWith("max_range: must be 0 to 10000 m"));
   spec.max_range = spec.min_range;
-  EXPECT_EQ(error(spec), "max_range: must be greater than min_range");
+  EXPECT_EQ(spec_error(spec), "max_range: must be greater than min_range");
   spec = vlp16_spec();
   spec.min_range = -0.1;
-  EXPECT_THAT(error(spec), StartsWith("min_range: must be 0 to 1000 m"));
+  EXPECT_THAT(spec_error(spec), StartsWith("min_range: must be 0 to 1000 m"));
 }
 
 TEST(LidarSpec, ASpinningOneHasRingsAndNotTooManyRays) {
   LidarSpec spec = vlp16_spec();
   spec.columns = 250'000;
-  EXPECT_EQ(error(spec), "none") << "4 million rays";
+  EXPECT_EQ(spec_error(spec), "none") << "4 million rays";
   spec.columns = 250'001;
-  EXPECT_THAT(error(spec), StartsWith("columns: "));
+  EXPECT_THAT(spec_error(spec), StartsWith("columns: "));
   spec.columns = 0;
-  EXPECT_THAT(error(spec), StartsWith("columns: "));
+  EXPECT_THAT(spec_error(spec), StartsWith("columns: "));
   spec = vlp16_spec();
   spec.rays = 0;
-  EXPECT_EQ(error(spec), "none") << "that is of the other kind";
+  EXPECT_EQ(spec_error(spec), "none") << "that is of the other kind";
   spec.vertical_angles[3] = std::numbers::pi / 2;
-  EXPECT_THAT(error(spec), StartsWith("vertical_angles: each must lie between -90 and 90"));
+  EXPECT_THAT(spec_error(spec), StartsWith("vertical_angles: each must lie between -90 and 90"));
   spec.vertical_angles[3] = std::nan("");
-  EXPECT_THAT(error(spec), StartsWith("vertical_angles: each"));
+  EXPECT_THAT(spec_error(spec), StartsWith("vertical_angles: each"));
   spec.vertical_angles.clear();
-  EXPECT_EQ(error(spec), "vertical_angles: a spinning LiDAR needs 1 to 1024 rings");
+  EXPECT_EQ(spec_error(spec), "vertical_angles: a spinning LiDAR needs 1 to 1024 rings");
   spec.vertical_angles.assign(1025, 0.0);
-  EXPECT_THAT(error(spec), StartsWith("vertical_angles: a spinning"));
+  EXPECT_THAT(spec_error(spec), StartsWith("vertical_angles: a spinning"));
 }
 
 TEST(LidarSpec, ANonRepeatingOneHasRaysInACone) {
-  EXPECT_EQ(error(livox()), "none") << "without rings";
+  EXPECT_EQ(spec_error(livox()), "none") << "without rings";
   LidarSpec spec = livox();
   spec.rays = 4'000'001;
-  EXPECT_THAT(error(spec), StartsWith("rays: "));
+  EXPECT_THAT(spec_error(spec), StartsWith("rays: "));
   for (const double field : {0.0, -1.0, 6.3, std::nan("")}) {
     spec = livox();
     spec.field_of_view = field;
-    EXPECT_THAT(error(spec), StartsWith("field_of_view: ")) << field;
+    EXPECT_THAT(spec_error(spec), StartsWith("field_of_view: ")) << field;
   }
 }
 

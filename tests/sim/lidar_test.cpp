@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::shared_ptr<const Scene> made(const Mesh& mesh) {
+std::shared_ptr<const Scene> made_scene(const Mesh& mesh) {
   auto scene = Scene::create(mesh);
   EXPECT_TRUE(scene.has_value()) << (scene ? "" : scene.error().message);
   return scene.value_or(nullptr);
@@ -72,7 +72,7 @@ TEST(Scene, RefusesWhatIsNoMesh) {
 }
 
 TEST(Scene, DistanceIncidenceAndMaterialOfAWallFromBothSides) {
-  const auto scene = made(yard(Material::kMetal));
+  const auto scene = made_scene(yard(Material::kMetal));
   const float nan = std::nanf("");
   const float half = std::sqrt(0.5f);
   const std::vector<Ray> rays{{{0, 0, 5}, {1, 0, 0}},      {{0, 0, 5}, {half, half, 0}},
@@ -96,7 +96,7 @@ TEST(Scene, DistanceIncidenceAndMaterialOfAWallFromBothSides) {
 }
 
 TEST(Lidar, RangesAreThoseOfThePlanes) {
-  const auto scene = made(yard());
+  const auto scene = made_scene(yard());
   for (const LidarSpec& base : {exact(), non_repeating()}) {
     LidarSpec spec = base;
     spec.range_noise = spec.dropout = 0.0;
@@ -113,7 +113,7 @@ TEST(Lidar, RangesAreThoseOfThePlanes) {
 }
 
 TEST(Lidar, ColumnsFollowOneAnotherClockwiseFromTheRear) {
-  const auto scene = made(test_ground({-60, -60}, {60, 60}, [](double, double) { return 0.0; }));
+  const auto scene = made_scene(test_ground({-60, -60}, {60, 60}, [](double, double) { return 0.0; }));
   LidarSpec spec = exact();
   spec.vertical_angles = {-0.2, -0.1};
   const sensor::Scan scan = cast_scan(*scene, spec, standing(above_ground(1.0)));
@@ -133,7 +133,7 @@ TEST(Lidar, ColumnsFollowOneAnotherClockwiseFromTheRear) {
 
 /// Every return, moved by the pose at its own firing time, lies on the surface it came from.
 TEST(Lidar, MotionDistortsTheScanAsThePoseAtEachFiring) {
-  const auto scene = made(yard());
+  const auto scene = made_scene(yard());
   ScanJob job;
   job.step = std::chrono::milliseconds(25);
   for (int k = 0; k <= 4; ++k) {
@@ -163,7 +163,7 @@ TEST(Lidar, MotionDistortsTheScanAsThePoseAtEachFiring) {
 }
 
 TEST(Lidar, NoiseHasItsSigmaAndDropoutItsShare) {
-  const auto scene = made(test_ground({-60, -60}, {60, 60}, [](double, double) { return 0.0; }));
+  const auto scene = made_scene(test_ground({-60, -60}, {60, 60}, [](double, double) { return 0.0; }));
   LidarSpec spec = exact();
   spec.vertical_angles = {-0.3};
   spec.range_noise = 0.05;
@@ -184,7 +184,8 @@ TEST(Lidar, NoiseHasItsSigmaAndDropoutItsShare) {
 TEST(Lidar, GlassReturnsNothingAtGrazingIncidence) {
   const auto steepest = [](Material wall) {
     double grazing = 0.0;
-    for (const auto& point : cast_scan(*made(yard(wall)), exact(), standing(above_ground(1.5))).points) {
+    for (const auto& point :
+         cast_scan(*made_scene(yard(wall)), exact(), standing(above_ground(1.5))).points) {
       if (std::abs(point.position.x() - 10.0f) > 1e-3f) continue;
       grazing = std::max(grazing, std::acos(10.0 / point.position.norm()));
     }
@@ -198,7 +199,7 @@ TEST(Lidar, GlassReturnsNothingAtGrazingIncidence) {
 TEST(Lidar, BeamsOnAnEdgeReturnRangesBetween) {
   Mesh mesh = test_box({10, -20, -5}, {10.2, 0.005, 20});
   append(mesh, test_box({10.6, -20, -5}, {10.8, 20, 20}));
-  const auto scene = made(mesh);
+  const auto scene = made_scene(mesh);
   const auto between = [&](double divergence) {
     LidarSpec spec = exact();
     spec.beam_divergence = divergence;
@@ -214,7 +215,7 @@ TEST(Lidar, BeamsOnAnEdgeReturnRangesBetween) {
 }
 
 TEST(Lidar, NonRepeatingPatternFillsItsConeOverTime) {
-  const auto scene = made(test_box({-50, -50, -50}, {50, 50, 50}));
+  const auto scene = made_scene(test_box({-50, -50, -50}, {50, 50, 50}));
   LidarSpec spec = non_repeating();
   spec.rays = 10003;  // no multiple of a packet
   const double half = 0.5 * spec.field_of_view;
@@ -250,7 +251,7 @@ std::string bytes_of(const sensor::Scan& scan) {
 }
 
 TEST(Lidar, SameJobSameBytesOnAnyThread) {
-  const auto scene = made(yard(Material::kGlass));
+  const auto scene = made_scene(yard(Material::kGlass));
   const LidarSpec spec = vlp16_spec();
   std::vector<std::string> alone(6), together(6);
   const auto run = [&](std::size_t k) {
@@ -266,7 +267,7 @@ TEST(Lidar, SameJobSameBytesOnAnyThread) {
 }
 
 TEST(Lidar, PartsCastAsPosesComeInAreTheWholeScan) {
-  const auto scene = made(yard(Material::kGlass));
+  const auto scene = made_scene(yard(Material::kGlass));
   LidarSpec five_hertz = at_rate(vlp16_spec(), 5.0), odd = vlp16_spec(), rosette = non_repeating();
   odd.columns = 1003;  // the last block is not full
   rosette.range_noise = 0.02;
@@ -299,7 +300,7 @@ TEST(Lidar, PartsCastAsPosesComeInAreTheWholeScan) {
 }
 
 TEST(Lidar, BadJobsAndSpecsGiveEmptyScans) {
-  const auto scene = made(yard());
+  const auto scene = made_scene(yard());
   ScanJob job = standing(above_ground(1.5));
   job.T_enu_lidar.pop_back();
   EXPECT_TRUE(cast_scan(*scene, exact(), job).points.empty());

@@ -3,16 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/triangle.hpp"
+
 namespace fleetmap::sim {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::StartsWith;
-using Triangle = std::array<std::uint32_t, 3>;
 
 const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-std::string error(const std::string& content) {
+std::string obj_error(const std::string& content) {
   const auto mesh = parse_obj(content);
   return mesh ? "none" : mesh.error().message;
 }
@@ -48,14 +49,15 @@ TEST(ObjFormat, TheMaterialPrevailsOverTheGroupAndTheGroupOverTheObject) {
 }
 
 TEST(ObjFormat, DamageIsNamedWithItsLine) {
-  EXPECT_THAT(error("v 0 0 0\n\nv 1 x 0\n"), StartsWith(":3: expected three numbers behind 'v', found 'x'"));
-  EXPECT_THAT(error("v 1 2"), StartsWith(":1: expected three numbers behind 'v', found ''"));
-  EXPECT_THAT(error("v 1 2 100001"), StartsWith(":1: a coordinate is not a number within 100 km"));
+  EXPECT_THAT(obj_error("v 0 0 0\n\nv 1 x 0\n"),
+              StartsWith(":3: expected three numbers behind 'v', found 'x'"));
+  EXPECT_THAT(obj_error("v 1 2"), StartsWith(":1: expected three numbers behind 'v', found ''"));
+  EXPECT_THAT(obj_error("v 1 2 100001"), StartsWith(":1: a coordinate is not a number within 100 km"));
   for (const char* corner : {"5", "0", "-5", "1.5", "a", "/1", "99999999999999999999"})
-    EXPECT_THAT(error(kCorners + "f 1 2 " + corner + "\n"),
+    EXPECT_THAT(obj_error(kCorners + "f 1 2 " + corner + "\n"),
                 StartsWith(":5: '" + std::string(corner) + "' names none of the 4 vertices"));
-  EXPECT_THAT(error(kCorners + "f 1 2\n"), StartsWith(":5: a face needs three corners"));
-  EXPECT_THAT(error("f 1 2 3\n" + kCorners), StartsWith(":1: '1' names none of the 0 vertices"))
+  EXPECT_THAT(obj_error(kCorners + "f 1 2\n"), StartsWith(":5: a face needs three corners"));
+  EXPECT_THAT(obj_error("f 1 2 3\n" + kCorners), StartsWith(":1: '1' names none of the 0 vertices"))
       << "those above count";
 }
 

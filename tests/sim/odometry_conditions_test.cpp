@@ -3,8 +3,7 @@
 // conditions.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/sim/solar_farm.hpp"
 #include "sim/lane_odometry.hpp"
 #include "support/measured.hpp"
@@ -12,7 +11,6 @@
 namespace fleetmap::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLength = 20.0;  // m
 
 struct Case {
@@ -38,7 +36,7 @@ sim::SolarFarmConfig hilly_farm(unsigned seed) {
   return farm;
 }
 
-LaneOdometry drive(const DriveCondition& how, unsigned seed) {
+LaneOdometry drive_lane(const DriveCondition& how, unsigned seed) {
   const auto world = sim::make_solar_farm(hilly_farm(seed)).value();
   const auto scene = sim::Scene::create(world->mesh()).value();
   sim::LidarSpec lidar = sim::vlp16_spec();
@@ -53,7 +51,7 @@ class OdometryConditions : public ::testing::TestWithParam<Case> {};
 TEST_P(OdometryConditions, StaysTrueAndLosesNothing) {
   const auto& [name, how, ate] = GetParam();
   for (unsigned seed = 1; seed <= seeds_to_run(1); ++seed) {
-    const LaneOdometry drove = drive(how, seed);
+    const LaneOdometry drove = drive_lane(how, seed);
     EXPECT_GT(drove.scans, 30u);
     EXPECT_EQ(drove.lost, 0u) << "seed " << seed;
     EXPECT_EQ(drove.map_restarts, 0u) << "seed " << seed;

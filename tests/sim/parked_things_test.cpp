@@ -10,7 +10,7 @@
 namespace fleetmap::sim {
 namespace {
 
-std::shared_ptr<const World> farm() {
+std::shared_ptr<const World> farm_with_roads() {
   SolarFarmConfig config;
   config.size_east = 70.0;
   config.size_north = 60.0;
@@ -41,7 +41,7 @@ int lanes_in_the_way(const World& world) {
 }
 
 TEST(ParkedThings, StandInTheWorldButNotInItsDrawing) {
-  const auto empty = farm();
+  const auto empty = farm_with_roads();
   ASSERT_EQ(lanes_in_the_way(*empty), 0);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto world = with_parked_things(*empty, 6, seed, {});
@@ -60,7 +60,7 @@ TEST(ParkedThings, StandInTheWorldButNotInItsDrawing) {
 }
 
 TEST(ParkedThings, LeaveRoomAroundTheStarts) {
-  const auto empty = farm();
+  const auto empty = farm_with_roads();
   const std::vector<Eigen::Vector2d> starts = {
       empty->aisles()[0].from, empty->aisles()[1].from, {0.0, empty->aisles()[2].from.y()}};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -72,7 +72,7 @@ TEST(ParkedThings, LeaveRoomAroundTheStarts) {
 }
 
 TEST(ParkedThings, TheSameSeedGivesTheSameWorld) {
-  const auto empty = farm();
+  const auto empty = farm_with_roads();
   const auto vertices = [&](std::uint64_t seed) {
     return with_parked_things(*empty, 4, seed, {}).value()->mesh().vertices;
   };
@@ -81,7 +81,7 @@ TEST(ParkedThings, TheSameSeedGivesTheSameWorld) {
 }
 
 TEST(ParkedThings, TooManyAreRefused) {
-  const auto world = with_parked_things(*farm(), 900, 1, {});
+  const auto world = with_parked_things(*farm_with_roads(), 900, 1, {});
   ASSERT_FALSE(world);
   EXPECT_THAT(world.error().message, ::testing::HasSubstr("no room for 900 parked things"));
 }

@@ -5,13 +5,14 @@
 
 #include <cstring>
 
+#include "sim/triangle.hpp"
+
 namespace fleetmap::sim {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-using Triangle = std::array<std::uint32_t, 3>;
 
 std::string header(const std::string& format,
                    const std::string& vertex =

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "shapes.hpp"
+#include "sim/stamps.hpp"
 
 namespace fleetmap::sim {
 namespace {
@@ -36,9 +37,7 @@ RobotTwinConfig robot() {
   return config;
 }
 
-Stamp at(double seconds) { return stamp_from_ns(std::llround(seconds * 1e9)); }
-
-RobotTwin made(const std::shared_ptr<const World>& world, const RobotTwinConfig& config) {
+RobotTwin made_twin(const std::shared_ptr<const World>& world, const RobotTwinConfig& config) {
   auto twin = RobotTwin::create(world, kOrigin, config, at(0));
   EXPECT_TRUE(twin.has_value()) << (twin ? "" : twin.error().message);
   return std::move(twin.value());
@@ -57,7 +56,7 @@ std::vector<TwinSample> drive(RobotTwin& twin, double until, double speed, doubl
 }
 
 TEST(RobotTwin, ReachesTheWantedSpeedWithItsAcceleration) {
-  RobotTwin twin = made(walled(), robot());
+  RobotTwin twin = made_twin(walled(), robot());
   drive(twin, 0.5, -1.5, 0.0);
   EXPECT_GT(twin.speed(), -0.51);
   EXPECT_LT(twin.speed(), -0.3);
@@ -70,14 +69,14 @@ TEST(RobotTwin, ReachesTheWantedSpeedWithItsAcceleration) {
 }
 
 TEST(RobotTwin, TurnsOnTheSpot) {
-  RobotTwin twin = made(walled(), robot());
+  RobotTwin twin = made_twin(walled(), robot());
   drive(twin, 4.0, 0.0, 0.5);
   EXPECT_NEAR(rpy_from_rotation(twin.T_enu_base().linear()).z(), 1.95, 0.02);  // 0.1 s to get going
   EXPECT_LT(twin.T_enu_base().translation().head<2>().norm(), 1e-6);
 }
 
 TEST(RobotTwin, ACommandIsForgotten) {
-  RobotTwin twin = made(walled(), robot());
+  RobotTwin twin = made_twin(walled(), robot());
   twin.command(-1.0, 0.0);
   twin.advance(at(0.45));
   EXPECT_LT(twin.speed(), -0.3);
@@ -88,7 +87,7 @@ TEST(RobotTwin, ACommandIsForgotten) {
 TEST(RobotTwin, WithoutATimeoutTheLastCommandHolds) {
   RobotTwinConfig config = robot();
   config.vehicle.command_timeout = 0.0;
-  RobotTwin twin = made(walled(), config);
+  RobotTwin twin = made_twin(walled(), config);
   twin.command(1.0, 0.0);
   twin.advance(at(6));
   EXPECT_NEAR(twin.speed(), 1.0, 0.02);
@@ -99,7 +98,7 @@ TEST(RobotTwin, WithoutATimeoutTheLastCommandHolds) {
 
 TEST(RobotTwin, StopsAtAWallTurnsAndBacksOff) {
   const auto world = walled();
-  RobotTwin twin = made(world, robot());
+  RobotTwin twin = made_twin(world, robot());
   drive(twin, 15.0, 2.0, 0.0);
   EXPECT_TRUE(twin.touching());
   EXPECT_NEAR(twin.speed(), 0.0, 1e-2);
@@ -122,7 +121,7 @@ TEST(RobotTwin, NeverStandsInsideAnything) {
   const auto world = world_of(std::move(mesh));
   RobotTwinConfig config = robot();
   config.start = {-4.0, -9.0};
-  RobotTwin twin = made(world, config);
+  RobotTwin twin = made_twin(world, config);
   for (int k = 0; k < 600; ++k) {
     twin.command(2.0 * std::sin(0.13 * k), 1.5 * std::cos(0.071 * k));
     twin.advance(twin.now() + std::chrono::milliseconds(200));
@@ -138,7 +137,7 @@ TEST(RobotTwin, FollowsTheTerrainSmoothly) {
   config.start = {-30.0, 3.0};
   config.imu.gyro_noise = config.imu.accel_noise = config.imu.gyro_bias_sigma = 0.0;
   config.imu.accel_bias_sigma = 0.0;
-  RobotTwin twin = made(world_of(test_ground({-40, -40}, {40, 40}, hills)), config);
+  RobotTwin twin = made_twin(world_of(test_ground({-40, -40}, {40, 40}, hills)), config);
   double worst_force = 0.0, worst_turn = 0.0;
   for (int k = 1; k <= 400; ++k) {
     twin.command(1.5, 0.0);
@@ -166,7 +165,7 @@ TEST(RobotTwin, ImuIntegratesToTheTruth) {
   config.start = {-10.0, 0.0};
   config.imu.gyro_noise = config.imu.accel_noise = config.imu.gyro_bias_sigma = 0.0;
   config.imu.accel_bias_sigma = config.imu.gyro_bias_walk = config.imu.accel_bias_walk = 0.0;
-  RobotTwin twin = made(world_of(test_ground({-40, -40}, {40, 40}, hills)), config);
+  RobotTwin twin = made_twin(world_of(test_ground({-40, -40}, {40, 40}, hills)), config);
   Pose T = twin.T_enu_base() * config.T_base_imu;
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   for (const TwinSample& sample : drive(twin, 20.0, 1.0, 0.3)) {
@@ -186,7 +185,7 @@ TEST(RobotTwin, ImuIntegratesToTheTruth) {
 TEST(RobotTwin, SamplesComeInOrderAtTheirRates) {
   RobotTwinConfig config = robot();
   config.lidar = at_rate(vlp16_spec(), 7.0);  // no multiple of the physics' step
-  RobotTwin twin = made(walled(), config);
+  RobotTwin twin = made_twin(walled(), config);
   int imus = 0, fixes = 0, wheels = 0, scans = 0;
   Stamp last{};
   for (const TwinSample& sample : drive(twin, 10.0, 0.5, 0.4)) {
@@ -210,7 +209,7 @@ TEST(RobotTwin, SamplesComeInOrderAtTheirRates) {
 
 TEST(RobotTwin, ScansStartAtThePoseOfTheirStamp) {
   RobotTwinConfig config = robot();
-  RobotTwin twin = made(walled(), config);
+  RobotTwin twin = made_twin(walled(), config);
   Pose begin = twin.T_enu_base();
   for (int k = 1; k <= 30; ++k) {
     twin.command(-1.0, 0.8);
@@ -228,7 +227,7 @@ TEST(RobotTwin, ScansStartAtThePoseOfTheirStamp) {
 TEST(RobotTwin, TheScanUnderWayHasTheFirstPosesOfTheOneThatBecomesDue) {
   RobotTwinConfig config = robot();
   config.lidar = at_rate(vlp16_spec(), 7.0);  // no multiple of the physics' step
-  RobotTwin twin = made(walled(), config);
+  RobotTwin twin = made_twin(walled(), config);
   std::vector<ScanJob> under_way;
   std::size_t compared = 0;
   for (int k = 1; k <= 100; ++k) {
@@ -255,7 +254,7 @@ TEST(RobotTwin, TheScanUnderWayHasTheFirstPosesOfTheOneThatBecomesDue) {
 
 TEST(RobotTwin, SameCommandsSameSamplesHoweverOneAsks) {
   const auto run = [](double step) {
-    RobotTwin twin = made(walled(), robot());
+    RobotTwin twin = made_twin(walled(), robot());
     std::vector<double> values;
     for (int second = 0; second < 4; ++second) {
       twin.command(-1.0, 0.5);
@@ -279,7 +278,7 @@ TEST(RobotTwin, SameCommandsSameSamplesHoweverOneAsks) {
 TEST(RobotTwin, AnEmptyBatteryStandsStill) {
   RobotTwinConfig config = robot();
   config.vehicle.battery_wh = 0.1;  // 360 J: 3.4 s at 45 W and 60 J/m
-  RobotTwin twin = made(walled(), config);
+  RobotTwin twin = made_twin(walled(), config);
   drive(twin, 2.0, -1.0, 0.0);
   EXPECT_GT(twin.battery_wh(), 0.0);
   EXPECT_LT(twin.speed(), -0.9);

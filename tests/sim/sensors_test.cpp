@@ -6,23 +6,16 @@
 #include "fleetmap/sim/gps.hpp"
 #include "fleetmap/sim/imu.hpp"
 #include "fleetmap/sim/wheels.hpp"
+#include "sim/perfect_imu.hpp"
+#include "sim/stamps.hpp"
 
 namespace fleetmap::sim {
 namespace {
 
 using ::testing::HasSubstr;
 
-Stamp at(double seconds) { return stamp_from_ns(std::llround(seconds * 1e9)); }
-
-ImuSpec perfect_imu() {
-  ImuSpec spec;
-  spec.gyro_noise = spec.accel_noise = spec.gyro_bias_sigma = spec.accel_bias_sigma = 0.0;
-  spec.gyro_bias_walk = spec.accel_bias_walk = spec.tilt_sigma = spec.heading_sigma = 0.0;
-  return spec;
-}
-
 /// A bend with sway: position, attitude and velocity.
-ImuMotion motion(double t) {
+ImuMotion swaying_motion(double t) {
   ImuMotion m;
   m.stamp = at(t);
   m.T_enu_imu = make_pose(rotation_from_rpy(0.05 * std::sin(2 * t), 0.04 * std::cos(3 * t), 0.3 * t),
@@ -33,10 +26,10 @@ ImuMotion motion(double t) {
 
 TEST(Imu, WithoutNoiseIntegratesToTheTruth) {
   ImuModel imu(perfect_imu(), 1);
-  Eigen::Matrix3d R = motion(0).T_enu_imu.linear();
-  Eigen::Vector3d v = motion(0).velocity_enu, p = motion(0).T_enu_imu.translation();
+  Eigen::Matrix3d R = swaying_motion(0).T_enu_imu.linear();
+  Eigen::Vector3d v = swaying_motion(0).velocity_enu, p = swaying_motion(0).T_enu_imu.translation();
   for (int k = 1; k <= 2000; ++k) {
-    const sensor::Imu sample = imu.measure(motion(0.01 * (k - 1)), motion(0.01 * k));
+    const sensor::Imu sample = imu.measure(swaying_motion(0.01 * (k - 1)), swaying_motion(0.01 * k));
     const Eigen::Matrix3d R_middle = R * so3_exp(0.005 * sample.angular_velocity);
     const Eigen::Vector3d a = R_middle * sample.specific_force - Eigen::Vector3d(0, 0, 9.80665);
     p += 0.01 * v + 5e-5 * a;
@@ -45,8 +38,8 @@ TEST(Imu, WithoutNoiseIntegratesToTheTruth) {
     ASSERT_TRUE(sample.q_enu_imu);
     EXPECT_LT(so3_log(sample.q_enu_imu->toRotationMatrix().transpose() * R).norm(), 1e-6);
   }
-  EXPECT_LT((v - motion(20).velocity_enu).norm(), 1e-6);
-  EXPECT_LT((p - motion(20).T_enu_imu.translation()).norm(), 5e-3);
+  EXPECT_LT((v - swaying_motion(20).velocity_enu).norm(), 1e-6);
+  EXPECT_LT((p - swaying_motion(20).T_enu_imu.translation()).norm(), 5e-3);
 }
 
 TEST(Imu, NoiseAndBiasHaveTheirDensities) {

@@ -83,7 +83,7 @@ struct Bounds {
 constexpr Bounds kVlp16{0.20, 0.0032, 0.0035, 0.0010}, kNonRepeating{0.51, 0.0055, 0.0119, 0.0011};
 
 void expect_true_to(const LidarSpec& lidar, const char* model, const Bounds& bounds) {
-  for (unsigned seed = 1; seed <= testing::seeds_to_run(2); ++seed) {
+  for (unsigned seed = 1; seed <= fleetmap::testing::seeds_to_run(2); ++seed) {
     const Drive drive = along_an_aisle(lidar, model, seed);
     EXPECT_GT(drive.length, 23.0);
     EXPECT_EQ(drive.counters.updates, 180u);
@@ -91,10 +91,11 @@ void expect_true_to(const LidarSpec& lidar, const char* model, const Bounds& bou
     EXPECT_EQ(drive.counters.rings_ignored, 0u);
     EXPECT_EQ(drive.counters.points_bad_time, 0u);
     const std::string of = std::string("odometry, ") + model;
-    testing::expect_at_most(100.0 * drive.error / drive.length, bounds.per_cent, of + ", per cent", seed);
-    testing::expect_at_most(drive.turn_error, bounds.turn, of + ", rad", seed);
-    testing::expect_at_most(drive.step, bounds.step, of + ", m within a second", seed);
-    testing::expect_at_most(drive.step_turn, bounds.step_turn, of + ", rad within a second", seed);
+    fleetmap::testing::expect_at_most(100.0 * drive.error / drive.length, bounds.per_cent, of + ", per cent",
+                                      seed);
+    fleetmap::testing::expect_at_most(drive.turn_error, bounds.turn, of + ", rad", seed);
+    fleetmap::testing::expect_at_most(drive.step, bounds.step, of + ", m within a second", seed);
+    fleetmap::testing::expect_at_most(drive.step_turn, bounds.step_turn, of + ", rad within a second", seed);
   }
 }
 
@@ -109,11 +110,12 @@ TEST(TwinOdometry, NonRepeatingScannerStaysTrueAlongAnAisle) {
 
 /// The bounds are so tight that scans which are not corrected for the motion within them break them.
 TEST(TwinOdometry, WithoutDeskewingTheBoundsAreBroken) {
-  for (unsigned seed = 1; seed <= testing::seeds_to_run(1); ++seed) {
+  for (unsigned seed = 1; seed <= fleetmap::testing::seeds_to_run(1); ++seed) {
     const Drive drive = along_an_aisle(vlp16_spec(), "vlp16", seed, false);
-    testing::expect_at_least(drive.step, kVlp16.step, "odometry not de-skewed, m within a second", seed);
-    testing::expect_at_least(drive.step_turn, kVlp16.step_turn, "odometry not de-skewed, rad within a second",
-                             seed);
+    fleetmap::testing::expect_at_least(drive.step, kVlp16.step, "odometry not de-skewed, m within a second",
+                                       seed);
+    fleetmap::testing::expect_at_least(drive.step_turn, kVlp16.step_turn,
+                                       "odometry not de-skewed, rad within a second", seed);
   }
 }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <functional>
 
+#include "sim/stamps.hpp"
+
 namespace fleetmap::sim {
 namespace {
 
-Stamp at(double seconds) { return stamp_from_ns(std::llround(seconds * 1e9)); }
-
-WheelSpec perfect() {
+WheelSpec perfect_wheels() {
   WheelSpec spec;
   spec.scale_sigma = spec.yaw_scale_sigma = spec.slip = spec.slip_turning = 0.0;
   spec.speed_noise = spec.yaw_rate_noise = 0.0;
@@ -26,7 +26,7 @@ double rms(const std::function<double(std::uint64_t seed)>& deviation) {
 }
 
 TEST(WheelModel, PerfectWheelsTellTheTruth) {
-  WheelModel wheels(perfect(), 1);
+  WheelModel wheels(perfect_wheels(), 1);
   const sensor::Wheel sample = wheels.measure(at(2.5), -1.5, 0.7);
   EXPECT_EQ(sample.stamp, at(2.5));
   EXPECT_DOUBLE_EQ(sample.forward_speed, -1.5);
@@ -34,7 +34,7 @@ TEST(WheelModel, PerfectWheelsTellTheTruth) {
 }
 
 TEST(WheelModel, NoiseIsThereAlsoAtRest) {
-  WheelSpec spec = perfect();
+  WheelSpec spec = perfect_wheels();
   spec.speed_noise = 0.05;
   spec.yaw_rate_noise = 0.2;
   EXPECT_NEAR(
@@ -45,13 +45,13 @@ TEST(WheelModel, NoiseIsThereAlsoAtRest) {
 }
 
 TEST(WheelModel, YawRateHasAScaleAndASlipOfItsOwn) {
-  WheelSpec spec = perfect();
+  WheelSpec spec = perfect_wheels();
   spec.yaw_scale_sigma = 0.05;
   EXPECT_NEAR(
       rms([&](std::uint64_t seed) { return *WheelModel(spec, seed).measure(at(0), 1, 2).yaw_rate - 2.0; }),
       0.1, 0.006);
   EXPECT_DOUBLE_EQ(WheelModel(spec, 1).measure(at(0), 1, 2).forward_speed, 1.0);
-  spec = perfect();
+  spec = perfect_wheels();
   spec.slip = 0.01;
   spec.slip_turning = 0.1;  // 0.01 + 2 * 0.1 at 2 rad/s
   EXPECT_NEAR(
@@ -63,7 +63,7 @@ TEST(WheelModel, YawRateHasAScaleAndASlipOfItsOwn) {
 }
 
 TEST(WheelModel, ASlipLastsItsTime) {
-  WheelSpec spec = perfect();
+  WheelSpec spec = perfect_wheels();
   spec.slip = 0.1;
   spec.slip_time = 0.5;
   spec.rate = 20.0;

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::shared_ptr<const World> made(Mesh mesh, const DrivableConfig& config = {}) {
+std::shared_ptr<const World> made_world(Mesh mesh, const DrivableConfig& config = {}) {
   auto world = World::create(std::move(mesh), config);
   EXPECT_TRUE(world.has_value()) << (world ? "" : world.error().message);
   return world.value_or(nullptr);
@@ -21,7 +21,7 @@ std::shared_ptr<const World> made(Mesh mesh, const DrivableConfig& config = {}) 
 
 TEST(World, GroundFollowsAPlane) {
   const auto world =
-      made(test_ground({-10, -5}, {10, 5}, [](double x, double y) { return 3 + 0.2 * x - 0.1 * y; }));
+      made_world(test_ground({-10, -5}, {10, 5}, [](double x, double y) { return 3 + 0.2 * x - 0.1 * y; }));
   ASSERT_TRUE(world);
   EXPECT_DOUBLE_EQ(world->drivable_share(), 1.0);
   for (const Eigen::Vector2d& p :
@@ -40,7 +40,7 @@ TEST(World, WallsTablesAndStepsAreInTheWayWhatARobotPassesIsNot) {
   append(mesh, test_box({4, 4, 1.5}, {6, 6, 1.6}));          // a low table
   append(mesh, test_box({4, -6, 2.0}, {6, -4, 2.1}));        // a high table: a metre above the ground
   append(mesh, test_box({0.5, 0.5, 0.9}, {1.5, 1.5, 1.1}));  // a board to drive over
-  const auto world = made(std::move(mesh));
+  const auto world = made_world(std::move(mesh));
   ASSERT_TRUE(world);
   EXPECT_TRUE(world->blocked({-5.05, 0}, 0.0));
   EXPECT_TRUE(world->blocked({-4.7, 0}, 0.4));
@@ -56,7 +56,7 @@ TEST(World, WallsTablesAndStepsAreInTheWayWhatARobotPassesIsNot) {
 TEST(World, ClearanceIsTheDistanceToTheNearestCellInTheWay) {
   Mesh mesh = test_ground({-10, -10}, {10, 10}, [](double, double) { return 0.0; });
   append(mesh, test_box({2.05, -10, 0}, {2.2, 10, 1}));  // within the cells from 2 to 2.25
-  const auto world = made(std::move(mesh));
+  const auto world = made_world(std::move(mesh));
   ASSERT_TRUE(world);
   for (double x = -3.0; x < 2.0; x += 0.37) EXPECT_NEAR(world->clearance({x, 1.1}, 20.0), 2.0 - x, 1e-9) << x;
   EXPECT_NEAR(world->clearance({4.25, 0}, 20.0), 2.0, 1e-9);
@@ -71,7 +71,7 @@ TEST(World, BlockedAgreesWithClearance) {
     const double x = 1.3 + 2.1 * k, y = std::fmod(3.7 * k, 11.0);
     append(mesh, test_box({x, y, 0}, {x + 0.1, y + 0.1, 2}));
   }
-  const auto world = made(std::move(mesh));
+  const auto world = made_world(std::move(mesh));
   ASSERT_TRUE(world);
   int in_the_way = 0;
   for (double x = 0.05; x < 12; x += 0.31) {
@@ -92,7 +92,7 @@ TEST(World, SteepGroundIsInTheWayAndGentleGroundIsNot) {
   for (const double cell : {0.25, 1.0}) {
     DrivableConfig config;
     config.cell = cell;
-    const auto world = made(test_ground({-10, -5}, {10, 5}, ramp), config);
+    const auto world = made_world(test_ground({-10, -5}, {10, 5}, ramp), config);
     ASSERT_TRUE(world);
     EXPECT_FALSE(world->blocked({-5, 0}, 0.3)) << cell;
     EXPECT_FALSE(world->blocked({2.5, 0}, 0.3)) << cell;
@@ -104,7 +104,7 @@ TEST(World, NarrowHolesAreBridgedWideOnesAreInTheWay) {
   Mesh mesh = test_ground({0, 0}, {10, 20}, [](double, double) { return 2.0; });
   append(mesh, test_ground({10.75, 0}, {20, 20}, [](double, double) { return 2.0; }));
   append(mesh, test_ground({25, 0}, {30, 20}, [](double, double) { return 2.0; }));
-  const auto world = made(std::move(mesh));
+  const auto world = made_world(std::move(mesh));
   ASSERT_TRUE(world);
   EXPECT_FALSE(world->blocked({10.4, 10}, 0.3));
   EXPECT_NEAR(world->ground_height({10.4, 10}), 2.0, 1e-5);

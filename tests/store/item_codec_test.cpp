@@ -6,20 +6,22 @@
 #include <limits>
 #include <random>
 
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
 using testing::agent;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
 
-const AgentId kSelf = agent("r1"), kPeer = agent("robot-08");
+const AgentId kDistantPeer = agent("robot-08");
 
 graph::Alignment ambiguous() {
-  graph::Alignment alignment = make_alignment({kSelf, 7}, {kPeer, 3}, kPeer, 9);
+  graph::Alignment alignment = make_alignment({kSelf, 7}, {kDistantPeer, 3}, kDistantPeer, 9);
   for (std::size_t k = 1; k < graph::Alignment::kMaxModes; ++k) {
     alignment.modes.push_back(alignment.modes.front());
     alignment.modes.back().T_i_j.translation().y() = 0.1 * static_cast<double>(k);
@@ -30,7 +32,7 @@ graph::Alignment ambiguous() {
 
 TEST(ItemCodec, ANodeComesBackBitForBit) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    graph::Node node = make_node(kPeer, seed, random_bytes(9, seed), 12.3, seed);
+    graph::Node node = make_node(kDistantPeer, seed, random_bytes(9, seed), 12.3, seed);
     node.session = 4711;
     if (seed % 3 == 0) node.G.reset();
     if (seed % 4 == 0) node.descriptor.clear();
@@ -74,7 +76,7 @@ TEST(ItemCodec, AnAlignmentComesBackBitForBit) {
 }
 
 TEST(ItemCodec, NumbersThatAreNoneKeepTheirBits) {
-  graph::Alignment alignment = make_alignment({kSelf, 0}, {kPeer, 4}, kSelf, 0);
+  graph::Alignment alignment = make_alignment({kSelf, 0}, {kDistantPeer, 4}, kSelf, 0);
   alignment.modes[0].rmse = -0.0;
   alignment.modes[0].score = std::numeric_limits<double>::quiet_NaN();
   alignment.modes[0].inlier_fraction = -std::numeric_limits<double>::infinity();
@@ -144,7 +146,7 @@ TEST(ItemCodec, CountsAndNamesBeyondTheirRulesAreRefused) {
 /// Else two rows of equal items could differ.
 TEST(ItemCodec, DecodedItemsEncodeToTheSameBytes) {
   std::mt19937 random(3);
-  const Bytes node = encode(make_node(kPeer, 1, {})), alignment = encode(ambiguous());
+  const Bytes node = encode(make_node(kDistantPeer, 1, {})), alignment = encode(ambiguous());
   int decoded = 0;
   for (int k = 0; k < 20'000; ++k) {
     Bytes damaged = k % 2 == 0 ? node : alignment;

@@ -1,19 +1,18 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
-using testing::agent;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
 using testing::TemporaryFolder;
-
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 
 TEST(ItemPuts, a_name_with_two_contents_ends_the_same_whatever_came_first) {
   const TemporaryFolder folder;

@@ -3,19 +3,19 @@
 #include <functional>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
 using testing::agent;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
 using testing::TemporaryFolder;
-
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 
 TEST(ItemRules, refuses_and_counts_what_breaks_a_rule) {
   const TemporaryFolder folder;

@@ -13,6 +13,9 @@ namespace fleetmap::testing {
 
 AgentId agent(const std::string& name);
 
+/// A named value of a store.
+inline const Bytes kMetaValue{1, 2, 3};
+
 Bytes random_bytes(std::size_t size, std::uint32_t seed);
 
 /// A node with awkward numbers (all depend on `seed`), `east_m` metres east of a fixed place.

@@ -9,6 +9,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "store/items.hpp"
 #include "store/power_cut_disk.hpp"
+#include "store/raw_file.hpp"
 #include "support/file_content.hpp"
 
 namespace fleetmap::store {
@@ -18,12 +19,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::PowerCutDisk;
 using testing::random_bytes;
+using testing::write_file;
 namespace fs = std::filesystem;
-
-void write(const fs::path& file, const Bytes& bytes) {
-  std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-}
 
 /// As the copy of a log is while the log is written again: its hash lies behind it.
 Bytes copy_of(Bytes log) {
@@ -36,8 +33,8 @@ Bytes copy_of(Bytes log) {
 class LeftLog : public ::testing::Test {
  protected:
   LeftLog() {
-    write(store_, random_bytes(4096, 1));
-    write(log_file_, log_);
+    write_file(store_, random_bytes(4096, 1));
+    write_file(log_file_, log_);
   }
   Status write_again() { return write_left_log_again(store_, disk_.name()); }
   /// The disk loses all that is in no sync.
@@ -81,8 +78,8 @@ TEST_F(LeftLog, IsWholeAfterAPowerCutAtAnyOperation) {
 }
 
 TEST_F(LeftLog, OfACutOffStartIsPutBackFromItsCopy) {
-  write(copy_, copy_of(log_));
-  write(log_file_, random_bytes(300'000, 3));
+  write_file(copy_, copy_of(log_));
+  write_file(log_file_, random_bytes(300'000, 3));
   ASSERT_TRUE(write_again());
   EXPECT_EQ(testing::file_bytes(log_file_), log_) << "the longer one is cut";
   EXPECT_FALSE(fs::exists(copy_));
@@ -92,14 +89,14 @@ TEST_F(LeftLog, ACopyThatIsNotWholeIsDropped) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{16}, std::size_t{1000}, log_.size() + 15}) {
     Bytes copy = copy_of(random_bytes(log_.size(), 3));
     copy.resize(size);
-    write(copy_, copy);
+    write_file(copy_, copy);
     ASSERT_TRUE(write_again());
     EXPECT_EQ(testing::file_bytes(log_file_), log_) << size;
     EXPECT_FALSE(fs::exists(copy_));
   }
   Bytes damaged = copy_of(random_bytes(log_.size(), 3));
   damaged[77] ^= 1;
-  write(copy_, damaged);
+  write_file(copy_, damaged);
   ASSERT_TRUE(write_again());
   EXPECT_EQ(testing::file_bytes(log_file_), log_);
 }
@@ -112,7 +109,7 @@ TEST_F(LeftLog, ThatCannotBeWrittenAgainIsLeftAsItIs) {
 }
 
 TEST_F(LeftLog, ThatAPowerCutMayHaveTornIsNotOpenedBeforeItIsPutBack) {
-  write(copy_, copy_of(log_));
+  write_file(copy_, copy_of(log_));
   disk_.fail_syncs(1);
   const Status failed = write_again();
   ASSERT_FALSE(failed);
@@ -128,7 +125,7 @@ TEST_F(LeftLog, WithoutALogNothingIsWritten) {
   fs::remove(log_file_);
   EXPECT_TRUE(write_again());
   EXPECT_FALSE(fs::exists(log_file_));
-  write(log_file_, {});
+  write_file(log_file_, {});
   EXPECT_TRUE(write_again());
   EXPECT_EQ(disk_.operations(), 0u);
 }

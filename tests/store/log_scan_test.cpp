@@ -9,18 +9,15 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "store/items.hpp"
+#include "store/raw_file.hpp"
 #include "support/file_content.hpp"
 
 namespace fleetmap::store {
 namespace {
 
 using testing::TemporaryFolder;
+using testing::write_file;
 namespace fs = std::filesystem;
-
-void write(const fs::path& file, const Bytes& bytes) {
-  std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-}
 
 /// A database that runs, with all that was ever written in its log.
 class Running {
@@ -105,7 +102,7 @@ TEST(LogScanDamage, OfACutLogTheWholeTransactionsCount) {
     for (const std::size_t more : {std::size_t{0}, std::size_t{500}}) {
       Bytes part = log;
       part.resize(std::min(log.size(), end_of_frames(frames, 1024) + more));
-      write(cut, part);
+      write_file(cut, part);
       EXPECT_EQ(scan_log(cut).frames, whole(running.commits, frames)) << frames << " and " << more << " B";
     }
   }
@@ -122,7 +119,7 @@ TEST(LogScanDamage, AnyChangedByteEndsTheLogBeforeItsTransaction) {
     for (const std::size_t at : {0u, 7u, 9u, 15u, 16u, 23u, 24u, 535u}) {
       Bytes bytes = log;
       bytes[end_of_frames(0, 512) + frame * frame_bytes + at] ^= 1;
-      write(damaged, bytes);
+      write_file(damaged, bytes);
       ASSERT_EQ(scan_log(damaged).frames, whole(running.commits, frame)) << frame << ' ' << at;
     }
   }
@@ -141,14 +138,14 @@ TEST(LogScanDamage, AFileThatIsNoLogIsEmpty) {
   };
   expect_empty();  // there is none
   for (const int size : {0, 31}) {
-    write(other, Bytes(log.begin(), log.begin() + size));
+    write_file(other, Bytes(log.begin(), log.begin() + size));
     expect_empty();
   }
   for (std::size_t at = 0; at < 32; ++at) {
     SCOPED_TRACE(at);
     Bytes bytes = log;
     bytes[at] ^= 1;
-    write(other, bytes);
+    write_file(other, bytes);
     expect_empty();
   }
 }

@@ -4,18 +4,19 @@
 #include <set>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 #include "store/power_cut_disk.hpp"
 
 namespace fleetmap::store {
 namespace {
 
+using testing::kPeer;
+using testing::kSelf;
 using testing::PowerCutDisk;
 
 constexpr int kStores = 30, kCutsOfAStore = 10;
 constexpr std::size_t kSubmapBytes = 30'000;
-const AgentId kSelf = testing::agent("r1");
-const AgentId kPeer = testing::agent("r2");
 
 Bytes submap_of(const NodeId& id) {
   Bytes bytes(kSubmapBytes, static_cast<std::uint8_t>(id.seq));

@@ -5,14 +5,14 @@
 
 #include <fstream>
 
+#include "store/items.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::store {
 namespace {
 
+using testing::agent;
 using ::testing::HasSubstr;
-
-AgentId agent(const char* name) { return AgentId::parse(name).value(); }
 
 LoggedRegistration registration(std::uint32_t source_seq, std::uint8_t cloud) {
   LoggedRegistration one;

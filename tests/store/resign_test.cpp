@@ -1,19 +1,19 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
 using testing::agent;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
 using testing::TemporaryFolder;
-
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 
 TEST(Resign, drops_what_is_not_signed_and_gives_a_contested_name_to_the_signed_content) {
   const TemporaryFolder folder;

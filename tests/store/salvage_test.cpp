@@ -5,7 +5,9 @@
 
 #include <fstream>
 
+#include "store/agents.hpp"
 #include "store/items.hpp"
+#include "store/raw_file.hpp"
 #include "store/run_sql.hpp"
 
 namespace fleetmap::store {
@@ -14,31 +16,28 @@ namespace {
 using testing::agent;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::kMetaValue;
+using testing::kPage;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using ::testing::Optional;
+using testing::overwrite;
 using testing::run_sql;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPage = 4096;
-const AgentId kSelf = agent("r1"), kPeer = agent("r2");
-const Bytes kSubmap = testing::random_bytes(9000, 1), kValue{1, 2, 3};
-
-void overwrite(const fs::path& file, std::size_t offset, const Bytes& bytes) {
-  std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
-  out.seekp(static_cast<std::streamoff>(offset));
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-}
+const Bytes kThreePages = testing::random_bytes(9000, 1);
 
 /// A closed store of two nodes, one submap, one alignment and one named value.
 class SalvageTest : public ::testing::Test {
  protected:
   void SetUp() override {
     auto store = Store::open(file_, kSelf).value();
-    ASSERT_TRUE(store.put_node_with_submap(make_node(kSelf, 0, kSubmap), kSubmap));
-    ASSERT_TRUE(store.put_node(make_node(kPeer, 4, kSubmap)));
+    ASSERT_TRUE(store.put_node_with_submap(make_node(kSelf, 0, kThreePages), kThreePages));
+    ASSERT_TRUE(store.put_node(make_node(kPeer, 4, kThreePages)));
     ASSERT_TRUE(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)));
-    ASSERT_TRUE(store.set_meta("value", kValue));
+    ASSERT_TRUE(store.set_meta("value", kMetaValue));
   }
   std::optional<std::string> damage() const {
     const auto found = find_damage(file_, {});
@@ -50,11 +49,11 @@ class SalvageTest : public ::testing::Test {
     EXPECT_EQ(damage(), std::nullopt);
     auto store = Store::open(file_, kSelf);
     ASSERT_TRUE(store) << store.error().message;
-    EXPECT_TRUE(store->holds(make_node(kSelf, 0, kSubmap)));
-    EXPECT_TRUE(store->holds(make_node(kPeer, 4, kSubmap)));
+    EXPECT_TRUE(store->holds(make_node(kSelf, 0, kThreePages)));
+    EXPECT_TRUE(store->holds(make_node(kPeer, 4, kThreePages)));
     EXPECT_TRUE(store->holds(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)));
-    EXPECT_EQ(store->submap({kSelf, 0}).value(), kSubmap);
-    EXPECT_EQ(store->meta("value").value(), kValue);
+    EXPECT_EQ(store->submap({kSelf, 0}).value(), kThreePages);
+    EXPECT_EQ(store->meta("value").value(), kMetaValue);
   }
 
   const testing::TemporaryFolder folder_;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 #include "support/file_content.hpp"
 
@@ -16,9 +17,9 @@ namespace {
 using testing::agent;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::kPeer;
+using testing::kSelf;
 namespace fs = std::filesystem;
-
-const AgentId kSelf = agent("r1"), kPeer = agent("r2");
 
 class Schema : public ::testing::Test {
  protected:

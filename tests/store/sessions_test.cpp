@@ -4,12 +4,13 @@
 
 #include <set>
 
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
-const AgentId kSelf = *AgentId::parse("r1");
+using testing::kSelf;
 
 class SessionsTest : public ::testing::Test {
  protected:

@@ -7,16 +7,18 @@
 #include <random>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
-const AgentId kSelf = testing::agent("r1");
-const AgentId kPeer = testing::agent("r2");
-constexpr std::uint32_t kSubmapBytes = 2 * Store::kChunkBytes + 100;
+using testing::kPeer;
+using testing::kSelf;
 
-Bytes submap_of(std::uint32_t seq) { return testing::random_bytes(kSubmapBytes, seq); }
+constexpr std::uint32_t kChunkedBytes = 2 * Store::kChunkBytes + 100;
+
+Bytes chunked_submap(std::uint32_t seq) { return testing::random_bytes(kChunkedBytes, seq); }
 
 /// Puts own nodes, peers' nodes, alignments and chunks, and writes one byte to `acknowledge` after every put.
 [[noreturn]] void write_until_killed(const std::filesystem::path& path, int acknowledge) {
@@ -26,7 +28,7 @@ Bytes submap_of(std::uint32_t seq) { return testing::random_bytes(kSubmapBytes, 
     if (!put || *put != Put::kAdded || write(acknowledge, "", 1) != 1) _exit(2);
   };
   for (std::uint32_t seq = 0;; ++seq) {
-    const Bytes submap = submap_of(seq);
+    const Bytes submap = chunked_submap(seq);
     const ByteView bytes(submap);
     acknowledged(store->put_node_with_submap(testing::make_node(kSelf, seq, submap), submap));
     acknowledged(store->put_node(testing::make_node(kPeer, seq, submap)));
@@ -44,7 +46,7 @@ void expect_holds(Store& store, std::uint32_t puts) {
     const NodeId peer{kPeer, seq};
     switch (put % 6) {
       case 0:
-        EXPECT_EQ(store.submap({kSelf, seq}).value_or(Bytes{}), submap_of(seq)) << put;
+        EXPECT_EQ(store.submap({kSelf, seq}).value_or(Bytes{}), chunked_submap(seq)) << put;
         break;
       case 1:
         EXPECT_TRUE(store.node(peer)) << put;
@@ -59,7 +61,7 @@ void expect_holds(Store& store, std::uint32_t puts) {
         EXPECT_FALSE(std::ranges::count(store.missing_chunks(peer), 2u)) << put;
         break;
       default:
-        EXPECT_EQ(store.submap(peer).value_or(Bytes{}), submap_of(seq)) << put;
+        EXPECT_EQ(store.submap(peer).value_or(Bytes{}), chunked_submap(seq)) << put;
         break;
     }
   }

@@ -8,7 +8,9 @@
 #include <random>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
+#include "store/raw_file.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -17,45 +19,39 @@ using testing::agent;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::kMetaValue;
+using testing::kPage;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
+using testing::overwrite;
 using testing::random_bytes;
 using testing::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kNodes = 120;
-constexpr std::size_t kPage = 4096;
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
-const Bytes kValue{1, 2, 3};
 
-Bytes submap_of(std::uint32_t seq) { return random_bytes(3000 + 37 * seq, seq); }
+Bytes growing_submap(std::uint32_t seq) { return random_bytes(3000 + 37 * seq, seq); }
 
-void fill(Store& store) {
+void fill_with_items(Store& store) {
   for (std::uint32_t seq = 0; seq < kNodes; ++seq) {
     const AgentId& maker = seq % 2 == 0 ? kSelf : kPeer;
-    auto node = make_node(maker, seq, submap_of(seq));
+    auto node = make_node(maker, seq, growing_submap(seq));
     if (seq % 3 == 0) node.signature.emplace().fill(7);
-    ASSERT_EQ(store.put_node_with_submap(node, submap_of(seq)).value(), Put::kAdded);
+    ASSERT_EQ(store.put_node_with_submap(node, growing_submap(seq)).value(), Put::kAdded);
     ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, maker, seq)).value(), Put::kAdded);
   }
-  ASSERT_EQ(store.put_node(make_node(kPeer, 1, submap_of(1), 30.0)).value(), Put::kConflict);
-  ASSERT_TRUE(store.set_meta("value", kValue));
-}
-
-/// Overwrites bytes of a file.
-void overwrite(const fs::path& file, std::size_t offset, const Bytes& bytes) {
-  std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
-  out.seekp(static_cast<std::streamoff>(offset));
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  ASSERT_EQ(store.put_node(make_node(kPeer, 1, growing_submap(1), 30.0)).value(), Put::kConflict);
+  ASSERT_TRUE(store.set_meta("value", kMetaValue));
 }
 
 class StoreDamage : public ::testing::Test {
  protected:
   void SetUp() override {
     auto store = Store::open(file_, kSelf).value();
-    fill(store);
+    fill_with_items(store);
   }
   std::size_t pages() const { return fs::file_size(file_) / kPage; }
   fs::path aside(int number = 1) const { return file_.string() + ".damaged-" + std::to_string(number); }
@@ -64,15 +60,15 @@ class StoreDamage : public ::testing::Test {
   void expect_whole_but(Store& store, std::size_t nodes, std::size_t alignments, std::size_t submaps) {
     for (const auto& [id, node] : store.nodes()) {
       // Either content of the contested name may remain alone until others send the evidence again.
-      if (store.holds(make_node(kPeer, 1, submap_of(1), 30.0)) && id == NodeId{kPeer, 1}) continue;
-      EXPECT_TRUE(store.holds(make_node(id.agent, id.seq, submap_of(id.seq)))) << to_string(id);
+      if (store.holds(make_node(kPeer, 1, growing_submap(1), 30.0)) && id == NodeId{kPeer, 1}) continue;
+      EXPECT_TRUE(store.holds(make_node(id.agent, id.seq, growing_submap(id.seq)))) << to_string(id);
       EXPECT_EQ(node.signature.has_value(), id.seq % 3 == 0) << to_string(id);
     }
     for (const auto& [id, alignment] : store.alignments())
       EXPECT_TRUE(store.holds(make_alignment({kSelf, 0}, {kPeer, 4}, id.computed_by, id.seq)));
     for (const SeqRange& range : store.submap_set().ranges()) {
       for (std::uint32_t seq = range.first; seq < range.end; ++seq)
-        EXPECT_EQ(store.submap({range.agent, seq}).value(), submap_of(seq));
+        EXPECT_EQ(store.submap({range.agent, seq}).value(), growing_submap(seq));
     }
     EXPECT_GE(store.node_set().size() + nodes, kNodes);
     EXPECT_GE(store.alignment_set().size() + alignments, kNodes);
@@ -80,7 +76,7 @@ class StoreDamage : public ::testing::Test {
     // The lost items come from others, the contested name last.
     for (std::uint32_t seq = 0; seq < kNodes; ++seq) {
       const AgentId& maker = seq % 2 == 0 ? kSelf : kPeer;
-      const Bytes submap = submap_of(seq);
+      const Bytes submap = growing_submap(seq);
       EXPECT_NE(store.put_node(make_node(maker, seq, submap)).value(), Put::kInvalid);
       EXPECT_TRUE(seq == 1 || store.put_submap({maker, seq}, submap).value() != Put::kInvalid) << seq;
     }
@@ -116,7 +112,7 @@ TEST_F(StoreDamage, WithoutItsHeaderItKeepsAll) {
   auto store = Store::open(file_, kSelf).value();
   EXPECT_TRUE(store.damage().empty()) << "once is enough";
   EXPECT_TRUE(store.is_contested({kPeer, 1}));
-  EXPECT_EQ(store.meta("value").value(), kValue);
+  EXPECT_EQ(store.meta("value").value(), kMetaValue);
 }
 
 TEST_F(StoreDamage, WithoutItsFirstPageItKeepsAll) {
@@ -191,7 +187,7 @@ TEST_F(StoreDamage, ALogWithoutItsDatabaseIsRead) {
   const fs::path running = folder_ / "running.db";
   {
     auto store = Store::open(running, kSelf).value();
-    fill(store);
+    fill_with_items(store);
     // As after a kill: the log is not moved into the file.
     fs::copy_file(running.string() + "-wal", file_.string() + "-wal");
   }
@@ -297,8 +293,9 @@ TEST_F(StoreDamage, RandomDamageNeverStopsAStart) {
     auto store = Store::open(file_, kSelf);
     ASSERT_TRUE(store) << store.error().message;
     expect_whole_but(*store, kNodes, kNodes, kNodes);
-    EXPECT_EQ(store->put_node_with_submap(make_node(kSelf, 1000, submap_of(9)), submap_of(9)).value(),
-              Put::kAdded);
+    EXPECT_EQ(
+        store->put_node_with_submap(make_node(kSelf, 1000, growing_submap(9)), growing_submap(9)).value(),
+        Put::kAdded);
   }
 }
 

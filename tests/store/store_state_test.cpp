@@ -5,18 +5,17 @@
 #include "fingerprint.hpp"
 #include "row_hash.hpp"
 #include "schema.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
-using testing::agent;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
-
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 
 class OpenState : public ::testing::Test {
  protected:

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "store/agents.hpp"
 #include "store/items.hpp"
 #include "store/run_sql.hpp"
 
@@ -14,14 +15,13 @@ namespace {
 using testing::agent;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
 using testing::run_sql;
 using testing::TemporaryFolder;
-
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 
 TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   const TemporaryFolder folder;

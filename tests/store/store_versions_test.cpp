@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 #include "support/file_content.hpp"
 
@@ -16,6 +17,9 @@ namespace {
 
 using testing::agent;
 using ::testing::HasSubstr;
+using testing::kMetaValue;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
@@ -24,10 +28,7 @@ using testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kFirstVersion = 3, kFirstWithContestedNames = 4;
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 const Bytes kSubmap = random_bytes(100, 1);
-const Bytes kValue{1, 2, 3};
 
 fs::path sql_of(std::int64_t version) {
   return fs::path(FLEETMAP_SOURCE_DIR) / "tests/store/versions" / (std::to_string(version) + ".sql");
@@ -80,7 +81,7 @@ void fill(const fs::path& file) {
   ASSERT_EQ(store.put_node(make_node(kPeer, 1, Bytes{})).value(), Put::kAdded);
   ASSERT_EQ(store.put_node(make_node(kPeer, 1, Bytes{}, 30.0)).value(), Put::kConflict);
   ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
-  ASSERT_TRUE(store.set_meta("value", kValue));
+  ASSERT_TRUE(store.set_meta("value", kMetaValue));
 }
 
 void expect_filled(Store& store, std::int64_t version) {
@@ -92,7 +93,7 @@ void expect_filled(Store& store, std::int64_t version) {
   EXPECT_EQ(store.is_contested({kPeer, 1}), version >= kFirstWithContestedNames);
   EXPECT_TRUE(store.holds(make_node(kPeer, 1, Bytes{})));
   EXPECT_TRUE(store.holds(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)));
-  EXPECT_EQ(store.meta("value").value(), kValue);
+  EXPECT_EQ(store.meta("value").value(), kMetaValue);
 }
 
 class StoreVersion : public ::testing::TestWithParam<std::int64_t> {};

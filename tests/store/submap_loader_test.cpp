@@ -3,15 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/cloud/codec.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
 using testing::agent;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_node;
-
-const AgentId kSelf = agent("r1"), kPeer = agent("r2");
 
 /// r1/0 with three points, r1/1 with a submap of no bytes, r2/0 without its submap, r2/1 with what is no
 /// cloud.

@@ -2,22 +2,21 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/store/store.hpp"
+#include "store/agents.hpp"
 #include "store/items.hpp"
 #include "store/run_sql.hpp"
 
 namespace fleetmap::store {
 namespace {
 
-using testing::agent;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::kPeer;
+using testing::kSelf;
 using testing::make_node;
 using testing::random_bytes;
 using testing::run_sql;
 using testing::TemporaryFolder;
-
-const AgentId kSelf = agent("r1");
-const AgentId kPeer = agent("r2");
 
 TEST(SubmapRows, keeps_the_chunks_of_a_download_over_a_restart) {
   const TemporaryFolder folder;

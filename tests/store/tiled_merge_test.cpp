@@ -11,13 +11,14 @@
 #include <random>
 #include <set>
 
+#include "store/agents.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::store {
 namespace {
 
-const AgentId kA = testing::agent("a");
-const AgentId kB = testing::agent("b");
+using testing::kA;
+using testing::kB;
 
 /// Points all around the origin; every third one has whole coordinates, and so lies on the border of voxels.
 cloud::PointCloud random_cloud(std::uint32_t seed) {

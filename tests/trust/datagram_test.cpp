@@ -3,16 +3,16 @@
 #include <gmock/gmock.h>
 
 #include "trust/fleet_of_keys.hpp"
+#include "trust/payload.hpp"
 
 namespace fleetmap::trust {
 namespace {
 
 using testing::agent;
 using testing::FleetOfKeys;
+using testing::kRadio;
+using testing::kText;
 using Why = NotOpened::Why;
-
-constexpr std::uint8_t kRadio = 1;
-const Bytes kText{10, 20, 30, 40};
 
 /// r1 sends, r2 hears.
 class Datagram : public ::testing::Test {

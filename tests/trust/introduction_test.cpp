@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "trust/fleet_of_keys.hpp"
+#include "trust/payload.hpp"
 
 namespace fleetmap::trust {
 namespace {
@@ -11,9 +12,8 @@ using testing::agent;
 using testing::FleetOfKeys;
 using ::testing::HasSubstr;
 using testing::kNow;
-
-constexpr std::uint8_t kRadio = 1;
-const Bytes kText{10, 20, 30, 40};
+using testing::kRadio;
+using testing::kText;
 
 /// r1 introduces itself to r2.
 class Introductions : public ::testing::Test {

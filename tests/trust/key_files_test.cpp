@@ -7,20 +7,16 @@
 #include <fstream>
 
 #include "support/temporary_folder.hpp"
+#include "trust/file_mode.hpp"
 
 namespace fleetmap::trust {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::mode_of;
 using ::testing::StartsWith;
 namespace fs = std::filesystem;
-
-mode_t mode_of(const fs::path& file) {
-  struct stat status {};
-  EXPECT_EQ(stat(file.c_str(), &status), 0) << file;
-  return status.st_mode & 0777;
-}
 
 class KeyFiles : public ::testing::Test {
  protected:

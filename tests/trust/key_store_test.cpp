@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "support/temporary_folder.hpp"
+#include "trust/file_mode.hpp"
 #include "trust/fleet_of_keys.hpp"
 
 namespace fleetmap::trust {
@@ -14,15 +15,10 @@ namespace {
 using testing::agent;
 using ::testing::HasSubstr;
 using testing::kNow;
+using testing::mode_of;
 namespace fs = std::filesystem;
 
 constexpr auto kYear = std::chrono::days(365);
-
-mode_t mode_of(const fs::path& file) {
-  struct stat status {};
-  EXPECT_EQ(stat(file.c_str(), &status), 0) << file;
-  return status.st_mode & 0777;
-}
 
 class Keys : public ::testing::Test {
  protected:

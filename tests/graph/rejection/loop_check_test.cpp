@@ -27,16 +27,16 @@ std::vector<Hypothesis> joining(const std::vector<FramePair>& pairs) {
 
 TEST(LoopCheck, ThePathIsTheShortestThatIsNotDirect) {
   const auto all = joining({{0, 1}, {0, 2}, {1, 2}, {2, 3}, {3, 4}, {1, 4}});
-  const std::vector<Hypothesis> triangle = path_between(all, {0, 1}, 5);
-  ASSERT_EQ(triangle.size(), 2u);
-  EXPECT_EQ(triangle[0].frames, FramePair(1, 2));
-  EXPECT_EQ(triangle[1].frames, FramePair(0, 2));
+  const std::vector<Hypothesis> triangle_fleet = path_between(all, {0, 1}, 5);
+  ASSERT_EQ(triangle_fleet.size(), 2u);
+  EXPECT_EQ(triangle_fleet[0].frames, FramePair(1, 2));
+  EXPECT_EQ(triangle_fleet[1].frames, FramePair(0, 2));
   EXPECT_EQ(path_between(all, {1, 4}, 5).size(), 3u);
   EXPECT_TRUE(path_between(joining({{0, 1}}), {0, 1}, 2).empty()) << "only the direct one";
   EXPECT_TRUE(path_between(joining({{0, 1}, {2, 3}}), {0, 3}, 4).empty()) << "not connected";
 }
 
-SimulatedFleet triangle(unsigned seed, double gps_sigma) {
+SimulatedFleet triangle_fleet(unsigned seed, double gps_sigma) {
   SimulatedFleetConfig config;
   config.reach = 50.0;
   config.lanes = 6;
@@ -56,7 +56,7 @@ SimulatedFleet triangle(unsigned seed, double gps_sigma) {
 TEST(LoopCheck, TheFalseSideOfATriangleIsAlwaysAnOutlierCandidate) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     for (const double sigma : {0.5, 1.5, 5.0}) {
-      const SimulatedFleet fleet = triangle(seed, sigma);
+      const SimulatedFleet fleet = triangle_fleet(seed, sigma);
       const ReducedFleet reduced(fleet);
       const PriorSolution prior(reduced);
       const PriorEvidence evidence = evidence_of(reduced, prior);
@@ -101,7 +101,7 @@ TEST(LoopCheck, LoopsThatCloseAreLeftAsTheyAre) {
 
 TEST(LoopCheck, NothingOfAFalseSideIsAccepted) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const SimulatedFleet fleet = triangle(seed, 1.5);
+    const SimulatedFleet fleet = triangle_fleet(seed, 1.5);
     const ReducedFleet reduced(fleet);
     const LoopCheck result = check(reduced);
     const FramePair false_side = reduced.candidates[reduced.between(kR1, kR2).front()].frames;

@@ -27,7 +27,7 @@ using testing::ViewMaker;
 
 constexpr const char* kOffer = "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n";
 
-std::unique_ptr<Server> start(const ServerConfig& config = {}, std::size_t points = 50) {
+std::unique_ptr<Server> start_with_points(const ServerConfig& config = {}, std::size_t points = 50) {
   auto load = [points](const NodeId&, const ContentHash&) {
     cloud::PointCloud cloud;
     for (std::size_t k = 0; k < points; ++k)
@@ -37,13 +37,13 @@ std::unique_ptr<Server> start(const ServerConfig& config = {}, std::size_t point
   return Server::start(config, load, {}).value();
 }
 
-std::shared_ptr<const FleetView> view() {
+std::shared_ptr<const FleetView> two_robot_view() {
   ViewMaker fleet;
   fleet.robot("r1", 0.0).robot("r2", 50.0);
   return std::make_shared<const FleetView>(fleet.view);
 }
 
-std::shared_ptr<const LiveStatus> status() {
+std::shared_ptr<const LiveStatus> status_of_r2() {
   LiveStatus status;
   status.robots.emplace_back().id = node_id("r2", 0).agent;
   return std::make_shared<const LiveStatus>(status);
@@ -97,7 +97,7 @@ json next_status(Browser& browser) {
 }
 
 TEST(ClientSession, the_answer_names_the_subprotocol) {
-  const auto server = start();
+  const auto server = start_with_points();
   const auto answer = [&](const std::string& path, const std::string& headers) {
     Browser browser(server->port());
     browser.upgrade(path, headers);
@@ -116,9 +116,9 @@ TEST(ClientSession, the_answer_names_the_subprotocol) {
 }
 
 TEST(ClientSession, sends_what_a_client_subscribes_to) {
-  const auto server = start();
-  server->publish(view());
-  server->publish(status());
+  const auto server = start_with_points();
+  server->publish(two_robot_view());
+  server->publish(status_of_r2());
   Browser browser(server->port());
   auto ids = connect(browser);
   ASSERT_TRUE(ids.contains("/r2/status"));
@@ -141,18 +141,18 @@ TEST(ClientSession, sends_what_a_client_subscribes_to) {
 }
 
 TEST(ClientSession, sends_what_is_newer_and_advertises_robots_that_come) {
-  const auto server = start();
+  const auto server = start_with_points();
   Browser browser(server->port());
   auto ids = connect(browser, "/live");
   EXPECT_EQ(ids.size(), 4u) << "those of the fleet, before there is one";
   subscribe(browser, 7, ids.at("/fleet/transforms"));
-  server->publish(view());
+  server->publish(two_robot_view());
   const json advertised = json::parse(browser.message());
   EXPECT_EQ(advertised["op"], "advertise");
   EXPECT_EQ(advertised["channels"].size(), 2u);
   EXPECT_EQ(advertised["channels"][0]["topic"], "/r1/fix");
   EXPECT_EQ(next_data(browser).subscription, 7u);
-  server->publish(view());
+  server->publish(two_robot_view());
   EXPECT_EQ(next_data(browser).subscription, 7u);
   browser.send_message(R"({"op":"unsubscribe","subscriptionIds":[7]})");
   browser.send_message(R"({"op":"unsubscribe","subscriptionIds":[7]})");
@@ -160,7 +160,7 @@ TEST(ClientSession, sends_what_is_newer_and_advertises_robots_that_come) {
 }
 
 TEST(ClientSession, what_is_not_offered_or_malformed_gets_a_status) {
-  const auto server = start();
+  const auto server = start_with_points();
   Browser browser(server->port());
   connect(browser);
   subscribe(browser, 1, 99);
@@ -183,7 +183,7 @@ TEST(ClientSession, what_is_not_offered_or_malformed_gets_a_status) {
 }
 
 TEST(ClientSession, too_large_and_malformed_frames_end_it) {
-  const auto server = start();
+  const auto server = start_with_points();
   const std::string too_large("\x81\xff\x00\x00\x00\x00\x7f\xff\xff\xff\x00\x00\x00\x00", 14);
   for (const std::string& bytes : {too_large, std::string("\x81\x02{}", 4) /* not masked */,
                                    std::string("\xf1\x80\x00\x00\x00\x00", 6) /* reserved bits */,
@@ -202,8 +202,8 @@ TEST(ClientSession, too_large_and_malformed_frames_end_it) {
 TEST(ClientSession, a_client_that_reads_no_status_is_cut) {
   ServerConfig config;
   config.foxglove_points = 2'000'000;  // more than sockets take
-  const auto server = start(config, 200'000);
-  server->publish(view());
+  const auto server = start_with_points(config, 200'000);
+  server->publish(two_robot_view());
   Browser deaf(server->port());
   const auto ids = connect(deaf);
   subscribe(deaf, 1, ids.at("/fleet/map"));
@@ -225,7 +225,7 @@ TEST(ClientSession, a_client_that_reads_no_status_is_cut) {
 TEST(ClientSession, a_client_that_answers_no_ping_is_cut) {
   ServerConfig config;
   config.idle_timeout = milliseconds(400);
-  const auto server = start(config);
+  const auto server = start_with_points(config);
   Browser silent(server->port());
   connect(silent);
   EXPECT_TRUE(eventually([&] { return server->stats().viewers == 0; }, seconds(20)));
@@ -235,7 +235,7 @@ TEST(ClientSession, a_client_that_answers_no_ping_is_cut) {
 TEST(ClientSession, pages_and_clients_together_are_so_many_at_most) {
   ServerConfig config;
   config.max_viewers = 2;
-  const auto server = start(config);
+  const auto server = start_with_points(config);
   Browser page(server->port()), client(server->port()), more(server->port());
   page.upgrade();
   ASSERT_EQ(page.status(), "101");
@@ -245,7 +245,7 @@ TEST(ClientSession, pages_and_clients_together_are_so_many_at_most) {
 }
 
 TEST(ClientSession, without_a_token_other_sites_and_names_are_refused) {
-  const auto server = start();
+  const auto server = start_with_points();
   const auto refused = [&](const std::string& headers) {
     Browser browser(server->port());
     browser.send(
@@ -262,7 +262,7 @@ TEST(ClientSession, without_a_token_other_sites_and_names_are_refused) {
 TEST(ClientSession, with_a_token_it_is_in_the_address) {
   ServerConfig config;
   config.token = "0123456789abcdef";
-  const auto server = start(config);
+  const auto server = start_with_points(config);
   const auto asked = [&](const std::string& path, const std::string& headers = "") {
     Browser browser(server->port());
     browser.upgrade(path, kOffer + headers);

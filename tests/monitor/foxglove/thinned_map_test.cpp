@@ -40,7 +40,7 @@ class Submaps {
   std::vector<std::size_t> sizes_;
 };
 
-std::shared_ptr<const FleetView> view(int nodes) {
+std::shared_ptr<const FleetView> view_of_nodes(int nodes) {
   ViewMaker fleet;
   fleet.robot("r1", 0.0, nodes);
   return std::make_shared<const FleetView>(fleet.view);
@@ -75,7 +75,7 @@ TEST(ThinnedMap, places_all_points_of_a_small_map) {
 TEST(ThinnedMap, small_submaps_leave_their_points_to_the_others) {
   Submaps submaps({2, 100, 100});
   ThinnedMap map(30, submaps.load());
-  map.begin(view(3));
+  map.begin(view_of_nodes(3));
   steps(map);
   const auto points = read_cloud(map.message());
   ASSERT_EQ(points.size(), 30u);
@@ -90,15 +90,15 @@ TEST(ThinnedMap, small_submaps_leave_their_points_to_the_others) {
 TEST(ThinnedMap, a_newer_view_loads_what_is_new_alone) {
   Submaps submaps({50, 50, 50, 50});
   ThinnedMap map(60, submaps.load());
-  map.begin(view(2));
+  map.begin(view_of_nodes(2));
   steps(map);
   submaps.loaded.clear();
-  map.begin(view(4));
+  map.begin(view_of_nodes(4));
   EXPECT_EQ(steps(map), 2u);
   EXPECT_THAT(submaps.loaded, ElementsAre(node_id("r1", 2), node_id("r1", 3)));
   EXPECT_EQ(read_cloud(map.message()).size(), 60u);
   submaps.loaded.clear();
-  map.begin(view(1));  // more points of fewer submaps
+  map.begin(view_of_nodes(1));  // more points of fewer submaps
   steps(map);
   EXPECT_THAT(submaps.loaded, ElementsAre(node_id("r1", 0)));
   EXPECT_EQ(read_cloud(map.message()).size(), 50u);
@@ -126,7 +126,7 @@ TEST(ThinnedMap, without_a_view_it_is_empty) {
 TEST(ThinnedMap, more_submaps_than_points_stay_within_the_points) {
   Submaps submaps(std::vector<std::size_t>(50, 10));
   ThinnedMap map(20, submaps.load());
-  map.begin(view(50));
+  map.begin(view_of_nodes(50));
   steps(map);
   EXPECT_EQ(read_cloud(map.message()).size(), 20u);
 }

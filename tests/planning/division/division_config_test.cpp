@@ -13,13 +13,12 @@ using fleetmap::testing::expect_accepted;
 using fleetmap::testing::expect_refused;
 using fleetmap::testing::kNaN;
 
-using Config = DivisionConfig;
-
 TEST(DivisionConfig, ReserveAndRoundsAreBounded) {
-  expect_accepted(Config{}, &Config::battery_reserve, {0.0, 0.99});
-  expect_refused(Config{}, &Config::battery_reserve, {-0.01, 1.0, kNaN<double>}, "battery_reserve");
-  expect_accepted(Config{}, &Config::search_rounds, {0, 1'000'000});
-  expect_refused(Config{}, &Config::search_rounds, {-1, 1'000'001}, "search_rounds");
+  expect_accepted(DivisionConfig{}, &DivisionConfig::battery_reserve, {0.0, 0.99});
+  expect_refused(DivisionConfig{}, &DivisionConfig::battery_reserve, {-0.01, 1.0, kNaN<double>},
+                 "battery_reserve");
+  expect_accepted(DivisionConfig{}, &DivisionConfig::search_rounds, {0, 1'000'000});
+  expect_refused(DivisionConfig{}, &DivisionConfig::search_rounds, {-1, 1'000'001}, "search_rounds");
 }
 
 TEST(DivisionConfig, MethodsAreReadByTheNameThatIsWritten) {

@@ -11,11 +11,11 @@
 namespace fleetmap::planning {
 namespace {
 
-using Rows = std::vector<std::size_t>;
+using testing::Rows;
 
 /// Lanes that grow longer from south to north, and robots at their south-west corner.
-struct Site {
-  explicit Site(double depth = 96.0) {
+struct TaperedSite {
+  explicit TaperedSite(double depth = 96.0) {
     testing::SiteSpec spec;
     spec.width = 120.0;
     spec.depth = depth;
@@ -65,7 +65,7 @@ std::vector<Rows> orders(const std::vector<TimedRoute>& routes) {
 }
 
 TEST(DivisionSearch, UniformSharesAreNeighboursInTheOrderOfTheWorkers) {
-  const Site site;
+  const TaperedSite site;
   for (int count = 1; count <= 5; ++count) {
     const auto workers = site.workers(count);
     const auto routes = uniform_division(*site.costs, site.rows, workers, site.to_end);
@@ -83,7 +83,7 @@ TEST(DivisionSearch, UniformSharesAreNeighboursInTheOrderOfTheWorkers) {
 }
 
 TEST(DivisionSearch, EveryRowIsDrivenOnceAndNoLaterThanWithEqualShares) {
-  const Site site;
+  const TaperedSite site;
   for (int count = 1; count <= 5; ++count) {
     for (const bool mixed : {false, true}) {
       const auto workers = site.workers(count, mixed);
@@ -96,7 +96,7 @@ TEST(DivisionSearch, EveryRowIsDrivenOnceAndNoLaterThanWithEqualShares) {
 }
 
 TEST(DivisionSearch, OneWorkersOrderIsTheBestOfAll) {
-  const Site site(56.0);
+  const TaperedSite site(56.0);
   ASSERT_EQ(site.rows.size(), 7u);
   const auto workers = site.workers(1);
   const auto routes = site.search(workers);
@@ -109,13 +109,13 @@ TEST(DivisionSearch, OneWorkersOrderIsTheBestOfAll) {
 }
 
 TEST(DivisionSearch, TheSameSeedGivesTheSameAnswer) {
-  const Site site;
+  const TaperedSite site;
   const auto workers = site.workers(3, true);
   EXPECT_EQ(orders(site.search(workers)), orders(site.search(workers)));
 }
 
 TEST(DivisionSearch, BusyRobotsAndEmptyBatteriesGetNoRows) {
-  const Site site;
+  const TaperedSite site;
   auto workers = site.workers(3);
   workers[1].busy = 1e5;
   auto routes = site.search(workers);
@@ -129,7 +129,7 @@ TEST(DivisionSearch, BusyRobotsAndEmptyBatteriesGetNoRows) {
 }
 
 TEST(DivisionSearch, TheWayToTheEndCounts) {
-  Site site(56.0);
+  TaperedSite site(56.0);
   const auto workers = site.workers(1);
   const TimedRoute home = site.search(workers)[0];
   // Far in the north-west: the last row is one from where it is near.
@@ -145,7 +145,7 @@ TEST(DivisionSearch, TheWayToTheEndCounts) {
 }
 
 TEST(DivisionSearch, NoRowsAreDividedIntoNothing) {
-  Site site;
+  TaperedSite site;
   site.rows.clear();
   auto workers = site.workers(2);
   workers[1].busy = 7.0;

@@ -15,8 +15,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Site {
-  explicit Site(const testing::SiteSpec& spec)
+struct DividedSite {
+  explicit DividedSite(const testing::SiteSpec& spec)
       : mission(testing::site(spec)),
         planner(*RoutePlanner::create(mission, {}, std::vector<Eigen::Vector2d>{{-12, -12}})),
         costs(*TravelCosts::create(planner, mission)) {}
@@ -38,7 +38,7 @@ testing::SiteSpec triangle() {
   return spec;
 }
 
-void expect_each_row_once(const Site& site, const Division& division) {
+void expect_each_row_once(const DividedSite& site, const Division& division) {
   std::multiset<RowId> driven(division.left_out.begin(), division.left_out.end());
   for (const RobotRoute& route : division.routes) {
     for (const RowVisit& visit : route.visits) driven.insert(visit.row);
@@ -49,7 +49,7 @@ void expect_each_row_once(const Site& site, const Division& division) {
 }
 
 TEST(Division, EveryRowIsDrivenOnceAndTimesAreThoseOfTheRoutes) {
-  const Site site(triangle());
+  const DividedSite site(triangle());
   for (const DivisionMethod method :
        {DivisionMethod::kUniform, DivisionMethod::kBalanced, DivisionMethod::kEnergy}) {
     for (const bool mixed : {false, true}) {
@@ -70,7 +70,7 @@ TEST(Division, EveryRowIsDrivenOnceAndTimesAreThoseOfTheRoutes) {
 }
 
 TEST(Division, UniformIsContiguousAndEqual) {
-  const Site site(triangle());
+  const DividedSite site(triangle());
   const Division division = site.divide_by(DivisionMethod::kUniform, testing::fleet(4));
   RowId next = 0;
   for (RobotRoute route : division.routes) {
@@ -89,7 +89,7 @@ TEST(Division, UniformDrivesEachShareInTheBestOrder) {
   spec.depth = 96.0;
   spec.missing = 0.0;
   spec.max_row_length = 42.0;
-  const Site site(spec);
+  const DividedSite site(spec);
   const auto rows = site.mission.rows.size();
   ASSERT_EQ(rows, 60u);
   double before = std::numeric_limits<double>::infinity();
@@ -103,7 +103,7 @@ TEST(Division, UniformDrivesEachShareInTheBestOrder) {
 }
 
 TEST(Division, BalancedIsNeverSlowerThanUniformAndFasterOnOddSites) {
-  const Site site(triangle());
+  const DividedSite site(triangle());
   for (int robots = 2; robots <= 5; ++robots) {
     for (const bool mixed : {false, true}) {
       const auto fleet = testing::fleet(robots, mixed);
@@ -120,7 +120,7 @@ TEST(Division, BalancedIsNeverSlowerThanUniformAndFasterOnOddSites) {
 TEST(Division, IsAsGoodAsTryingEverythingOnSmallSites) {
   testing::SiteSpec spec = triangle();
   spec.depth = 48.0;  // 6 rows
-  const Site site(spec);
+  const DividedSite site(spec);
   const auto fleet = testing::fleet(2, true);
   const Division division = site.divide_by(DivisionMethod::kBalanced, fleet);
   std::vector<std::vector<Travel>> from;
@@ -155,7 +155,7 @@ TEST(Division, IsAsGoodAsTryingEverythingOnSmallSites) {
 }
 
 TEST(Division, EnergyKeepsTheReserveAndLeavesOutWhatNoBatteryReaches) {
-  const Site site(triangle());
+  const DividedSite site(triangle());
   auto fleet = testing::fleet(3);
   fleet[0].battery_wh = 12.0;
   const Division some = site.divide_by(DivisionMethod::kEnergy, fleet);

@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// 10 B a metre, 1000 B/s, steps of 1 s.
-RendezvousConfig settings() {
+RendezvousConfig meeting_config() {
   RendezvousConfig config;
   config.c_max = 60.0;
   config.bandwidth = 8000.0;
@@ -34,7 +34,7 @@ Piece straight(const Vector2d& from, const Vector2d& to, double seconds,
 
 TEST(ExchangeForecast, OneRobotIsCompleteWhenItArrives) {
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 80.5), straight({100, 0}, {100, 50}, 20.0)}};
-  const Forecast forecast = forecast_exchange(fleet, 0, settings(), kForever);
+  const Forecast forecast = forecast_exchange(fleet, 0, meeting_config(), kForever);
   EXPECT_DOUBLE_EQ(forecast.completion, 100.5);
   EXPECT_THAT(forecast.arrivals, ElementsAre(DoubleEq(100.5)));
   EXPECT_THAT(forecast.lengths, ElementsAre(DoubleNear(150.0, 1e-9)));
@@ -43,7 +43,7 @@ TEST(ExchangeForecast, OneRobotIsCompleteWhenItArrives) {
 }
 
 TEST(ExchangeForecast, RobotsThatMeetAtTheEndExchangeAllThere) {
-  RendezvousConfig config = settings();
+  RendezvousConfig config = meeting_config();
   config.c_max = 1.0;
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
                                      {straight({950, 0}, {100, 0}, 100.0)}};
@@ -56,7 +56,7 @@ TEST(ExchangeForecast, RobotsThatMeetAtTheEndExchangeAllThere) {
 TEST(ExchangeForecast, RobotsSideBySideExchangeUnderWay) {
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
                                      {straight({0, 10}, {100, 10}, 100.0)}};
-  RendezvousConfig config = settings();
+  RendezvousConfig config = meeting_config();
   const Forecast fast = forecast_exchange(fleet, 0, config, kForever);
   EXPECT_NEAR(fast.bytes_in_passing, 2.0 * 990.0, 1e-6) << "all but the last second";
   EXPECT_NEAR(fast.completion, 100.02, 1e-6);
@@ -73,7 +73,7 @@ TEST(ExchangeForecast, RobotThatNeedsLittleLeavesItsShareToTheOthers) {
   // 1 B and 10 B each second, over 8 B/s.
   const std::vector<Itinerary> fleet{{straight({0, 0}, {10, 0}, 100.0)},
                                      {straight({0, 10}, {100, 10}, 100.0)}};
-  RendezvousConfig config = settings();
+  RendezvousConfig config = meeting_config();
   config.c_max = 200.0;
   config.bandwidth = 64.0;
   EXPECT_NEAR(forecast_exchange(fleet, 0, config, kForever).bytes_in_passing, 99.0 * 8.0, 1e-6);
@@ -82,7 +82,7 @@ TEST(ExchangeForecast, RobotThatNeedsLittleLeavesItsShareToTheOthers) {
 TEST(ExchangeForecast, TheOneInTheMiddlePassesMapsOn) {
   std::vector<Itinerary> fleet;
   for (const double x : {0.0, 50.0, 100.0}) fleet.push_back({straight({x, 0}, {x, 100}, 100.0)});
-  const Forecast forecast = forecast_exchange(fleet, 0, settings(), kForever);
+  const Forecast forecast = forecast_exchange(fleet, 0, meeting_config(), kForever);
   EXPECT_NEAR(forecast.bytes_total, 6.0 * 1000.0, 1e-6);
   // A map takes a second to the neighbour and two to the one behind.
   EXPECT_NEAR(forecast.bytes_in_passing, 4.0 * 990.0 + 2.0 * 980.0, 1e-6);
@@ -92,13 +92,13 @@ TEST(ExchangeForecast, TheOneInTheMiddlePassesMapsOn) {
 TEST(ExchangeForecast, RobotOutOfReachAtTheEndNeverCompletes) {
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
                                      {straight({0, 70}, {100, 70}, 90.0)}};
-  const Forecast forecast = forecast_exchange(fleet, 0, settings(), kForever);
+  const Forecast forecast = forecast_exchange(fleet, 0, meeting_config(), kForever);
   EXPECT_EQ(forecast.completion, Forecast::kNever);
   EXPECT_THAT(forecast.arrivals, ElementsAre(DoubleEq(100.0), DoubleEq(90.0)));
 }
 
 TEST(ExchangeForecast, TwoAtAStopGoOnSomeTimeAfterTheyHoldTheSame) {
-  RendezvousConfig config = settings();
+  RendezvousConfig config = meeting_config();
   config.c_max = 0.5;
   config.bandwidth = 800.0;  // 100 B/s
   const Vector2d stop(50, 0), end(50, 50);
@@ -116,7 +116,7 @@ TEST(ExchangeForecast, TwoAtAStopGoOnSomeTimeAfterTheyHoldTheSame) {
 }
 
 TEST(ExchangeForecast, StopWithoutThePartnerIsAbandoned) {
-  RendezvousConfig config = settings();
+  RendezvousConfig config = meeting_config();
   config.c_max = 0.5;
   // Each waits for the other at another stop.
   const std::vector<Itinerary> fleet{{straight({0, 0}, {50, 0}, 50.0, 0), straight({50, 0}, {90, 0}, 50.0, 1),
@@ -137,7 +137,7 @@ TEST(ExchangeForecast, SlowRobotsTakeLonger) {
   EXPECT_EQ((Pace{3.0, 1}.of(1)), 3.0);
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
                                      {straight({0, 10}, {100, 10}, 100.0)}};
-  const Forecast forecast = forecast_exchange(fleet, 0, settings(), kForever, {1.5, 1});
+  const Forecast forecast = forecast_exchange(fleet, 0, meeting_config(), kForever, {1.5, 1});
   EXPECT_THAT(forecast.arrivals, ElementsAre(DoubleEq(100.0), DoubleEq(150.0)));
   EXPECT_THAT(forecast.lengths, ElementsAre(DoubleNear(100.0, 1e-9), DoubleNear(100.0, 1e-9)));
   EXPECT_GT(forecast.completion, 150.0);
@@ -145,7 +145,7 @@ TEST(ExchangeForecast, SlowRobotsTakeLonger) {
 }
 
 TEST(ExchangeForecast, MapsThatWeighNothingTakeNoTime) {
-  RendezvousConfig config = settings();
+  RendezvousConfig config = meeting_config();
   config.map_bytes_per_metre = 0.0;
   const std::vector<Itinerary> fleet{{straight({0, 0}, {100, 0}, 100.0)},
                                      {straight({950, 0}, {100, 0}, 100.0)}};

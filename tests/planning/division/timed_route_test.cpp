@@ -12,10 +12,10 @@
 namespace fleetmap::planning {
 namespace {
 
-using Rows = std::vector<std::size_t>;
+using testing::Rows;
 
-struct Site {
-  Site() {
+struct RaggedSite {
+  RaggedSite() {
     testing::SiteSpec spec;
     spec.width = spec.depth = 80.0;
     spec.ragged = 0.2;
@@ -53,7 +53,7 @@ struct Site {
 constexpr double kRounding = 1e-3;  // s: travels are floats
 
 TEST(TimedRoute, TimesOfAllChangesAreThoseOfBruteForce) {
-  const Site site;
+  const RaggedSite site;
   ASSERT_GE(site.mission.rows.size(), 8u);
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20; ++trial) {
@@ -89,7 +89,7 @@ TEST(TimedRoute, TimesOfAllChangesAreThoseOfBruteForce) {
 }
 
 TEST(TimedRoute, DirectionsAndTravelAreThoseOfTheTime) {
-  const Site site;
+  const RaggedSite site;
   TimedRoute route(*site.costs, site.to_end, site.worker);
   route.assign({0, 1, 2, 3});
   EXPECT_EQ(route.directions().size(), 4u);
@@ -97,7 +97,7 @@ TEST(TimedRoute, DirectionsAndTravelAreThoseOfTheTime) {
 }
 
 TEST(TimedRoute, OvertimeIsWhatTheBatteryLacks) {
-  Site site;
+  RaggedSite site;
   TimedRoute free(*site.costs, site.to_end, site.worker);
   free.assign({0, 1});
   EXPECT_EQ(free.overtime(), 0.0);

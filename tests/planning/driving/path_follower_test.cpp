@@ -12,15 +12,15 @@ namespace {
 using Eigen::Vector2d;
 using testing::AisleWorld;
 
-struct Outcome {
+struct DriveOutcome {
   bool finished = false;
   bool stuck = false;
   double time = 0.0;
 };
 
 /// The loop at 10 Hz until the follower is finished or stuck; `error` is that of the known position.
-Outcome drive(AisleWorld& world, PathFollower& follower, const std::function<Vector2d(double)>& error,
-              double limit = 400.0) {
+DriveOutcome drive(AisleWorld& world, PathFollower& follower, const std::function<Vector2d(double)>& error,
+                   double limit = 400.0) {
   const double dt = 0.1;
   for (int k = 0; k * dt < limit; ++k) {
     const Stamp now = stamp_from_ns(static_cast<std::int64_t>(k) * 100'000'000);
@@ -51,7 +51,7 @@ TEST(PathFollower, DrivesAnOpenPathWithItsCorners) {
   AisleWorld world;
   PathFollower follower;
   follower.set_path({{0, 0}, {20, 0}, {20, 10}, {0, 10}, {0, 14}});
-  const Outcome outcome = drive(world, follower, none);
+  const DriveOutcome outcome = drive(world, follower, none);
   EXPECT_TRUE(outcome.finished);
   EXPECT_LT((world.truth.position - Vector2d(0, 14)).norm(), 0.8);
   EXPECT_LT(outcome.time, 60.0);
@@ -66,7 +66,7 @@ TEST(PathFollower, KeepsToTheMiddleOfAnAisleWithAnErrorOfItsPosition) {
     const auto error = [bias](double t) {
       return Vector2d(0.4 * std::sin(0.05 * t), bias + 0.4 * std::sin(0.03 * t));
     };
-    const Outcome outcome = drive(world, follower, error);
+    const DriveOutcome outcome = drive(world, follower, error);
     EXPECT_TRUE(outcome.finished) << bias;
     EXPECT_GT(world.truth.position.x(), 197.0) << bias;
     EXPECT_GT(world.nearest, 0.6) << bias;                // of 1.5 m in the middle
@@ -81,7 +81,7 @@ TEST(PathFollower, GoesAroundAPalletInTheAisle) {
     world.box({20.0, -0.4}, {21.2, 0.0});  // 1.1 and 1.5 m are left
     PathFollower follower;
     follower.set_path({{-3.0, 0.0}, {40.0, 0.0}});
-    const Outcome outcome = drive(world, follower, [bias](double) { return Vector2d(0.0, bias); });
+    const DriveOutcome outcome = drive(world, follower, [bias](double) { return Vector2d(0.0, bias); });
     EXPECT_TRUE(outcome.finished) << bias;
     EXPECT_GT(world.truth.position.x(), 37.0) << bias;
     EXPECT_GT(world.nearest, world.radius) << bias;
@@ -95,7 +95,7 @@ TEST(PathFollower, PassesANarrowGate) {
     world.wall({15.0, 0.6}, {15.0, 8.0});
     PathFollower follower;
     follower.set_path({{0.0, 0.0}, {30.0, 0.0}});
-    const Outcome outcome = drive(world, follower, [bias](double) { return Vector2d(0.0, bias); });
+    const DriveOutcome outcome = drive(world, follower, [bias](double) { return Vector2d(0.0, bias); });
     EXPECT_TRUE(outcome.finished) << bias;
     EXPECT_GT(world.truth.position.x(), 28.0) << bias;
     EXPECT_GT(world.nearest, world.radius) << bias;
@@ -107,7 +107,7 @@ TEST(PathFollower, SaysThatItIsStuckInADeadEndAndTouchesNothing) {
   world.wall({30.0, -1.5}, {30.0, 1.5});
   PathFollower follower;
   follower.set_path({{-3.0, 0.0}, {60.0, 0.0}});
-  const Outcome outcome = drive(world, follower, none);
+  const DriveOutcome outcome = drive(world, follower, none);
   EXPECT_FALSE(outcome.finished);
   EXPECT_TRUE(outcome.stuck);
   EXPECT_GT(world.nearest, world.radius);
@@ -123,7 +123,7 @@ TEST(PathFollower, AWaypointInsideAnObstacleCountsAsReached) {
   world.box({9.4, 19.4}, {10.6, 20.6});  // and on its end
   PathFollower follower;
   follower.set_path({{0.0, 0.0}, {10.0, 0.0}, {10.0, 20.0}});
-  const Outcome outcome = drive(world, follower, none, 120.0);
+  const DriveOutcome outcome = drive(world, follower, none, 120.0);
   EXPECT_TRUE(outcome.finished);
   EXPECT_LT((world.truth.position - Vector2d(10.0, 20.0)).norm(), 4.0);
   EXPECT_GT(world.nearest, world.radius);
@@ -136,7 +136,8 @@ TEST(PathFollower, TurnsFromOneAisleIntoTheNext) {
     world.truth = {{1.0, 0.0}, 0.0};
     PathFollower follower;
     follower.set_path({{1.0, 0.0}, {32.5, 0.0}, {32.5, 8.0}, {1.0, 8.0}});
-    const Outcome outcome = drive(world, follower, [bias](double) { return Vector2d(0.3 * bias, bias); });
+    const DriveOutcome outcome =
+        drive(world, follower, [bias](double) { return Vector2d(0.3 * bias, bias); });
     EXPECT_TRUE(outcome.finished) << bias;
     EXPECT_LT((world.truth.position - Vector2d(1.0, 8.0)).norm(), 2.5) << bias;
     EXPECT_GT(world.nearest, world.radius) << bias;

@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "planning/mission/small_plan.hpp"
 #include "planning/sites.hpp"
 
 namespace fleetmap::planning {
 namespace {
 
 using Eigen::Vector2d;
+using testing::at;
 
 const Polyline kPath = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 20.0}};
-
-Stamp at(double seconds) { return Stamp{} + from_seconds(seconds); }
 
 /// Ground around two rows with one shed, at whose corners a way may turn.
 RoutePlanner ground() {

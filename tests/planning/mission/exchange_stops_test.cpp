@@ -11,11 +11,11 @@ namespace {
 
 using testing::VirtualFleet;
 
-constexpr double kLimit = 9000.0;
-constexpr double kLoss = 0.2;
+constexpr double kLongLimit = 9000.0;
+constexpr double kLowLoss = 0.2;
 
 /// A triangular farm, a slow robot among fast ones, heavy maps over a slow link.
-MissionConfig settings(DivisionMethod method = DivisionMethod::kEnergy) {
+MissionConfig slow_link_config(DivisionMethod method = DivisionMethod::kEnergy) {
   MissionConfig config;
   config.division.method = method;
   config.division.search_rounds = 30;
@@ -24,19 +24,19 @@ MissionConfig settings(DivisionMethod method = DivisionMethod::kEnergy) {
   return config;
 }
 
-std::shared_ptr<const FleetPlan> plan_for(DivisionMethod method = DivisionMethod::kEnergy) {
+std::shared_ptr<const FleetPlan> plan_by(DivisionMethod method = DivisionMethod::kEnergy) {
   testing::SiteSpec spec;
   spec.width = spec.depth = 300.0;
   spec.taper = 0.9;
   spec.every = 3;
-  auto plan = plan_fleet(testing::site(spec), testing::fleet(3, true), settings(method));
+  auto plan = plan_fleet(testing::site(spec), testing::fleet(3, true), slow_link_config(method));
   EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
   return *plan;
 }
 
 /// Made once: planning takes most of a test's time.
 const std::shared_ptr<const FleetPlan>& with_stops() {
-  static const auto plan = plan_for();
+  static const auto plan = plan_by();
   return plan;
 }
 
@@ -47,7 +47,7 @@ std::shared_ptr<const FleetPlan> without_stops(const FleetPlan& plan) {
 }
 
 VirtualFleet fleet_on(const std::shared_ptr<const FleetPlan>& plan, std::uint64_t seed = 3) {
-  VirtualFleet fleet(plan, kLoss, seed);
+  VirtualFleet fleet(plan, kLowLoss, seed);
   const RendezvousConfig& link = plan->config.meeting;
   fleet.radio.emplace(plan->fleet.size(), link.bandwidth * link.efficiency, link.map_bytes_per_metre,
                       link.c_max);
@@ -72,9 +72,9 @@ std::size_t dropped(const VirtualFleet& fleet) {
 TEST(ExchangeStops, MakeTheFleetCompleteEarlier) {
   ASSERT_FALSE(with_stops()->exchange->stops.empty());
   VirtualFleet stopping = fleet_on(with_stops());
-  const double with = stopping.run(kLimit);
+  const double with = stopping.run(kLongLimit);
   VirtualFleet passing = fleet_on(without_stops(*with_stops()));
-  const double without = passing.run(kLimit);
+  const double without = passing.run(kLongLimit);
   EXPECT_EQ(stopping.rows_driven(), with_stops()->mission.rows.size());
   EXPECT_TRUE(stopping.radio->all_hold_all());
   EXPECT_TRUE(passing.radio->all_hold_all());
@@ -96,10 +96,10 @@ TEST(ExchangeStops, NobodyWaitsForOneWhoIsLost) {
   VirtualFleet fleet = fleet_on(with_stops());
   const Detour& stop = first_stop();
   const double before = 0.5 * std::max(stop.parts[0].arrival, stop.parts[1].arrival);
-  fleet.run(kLimit, [&] {
+  fleet.run(kLongLimit, [&] {
     if (std::abs(fleet.now - before) < 0.6) fleet.kill(stop.parts[1].robot);
   });
-  EXPECT_LT(fleet.now, kLimit);
+  EXPECT_LT(fleet.now, kLongLimit);
   EXPECT_EQ(fleet.rows_driven(), fleet.plan->mission.rows.size());
   EXPECT_GE(fleet.robots[stop.parts[0].robot].executive->status().stops_dropped, 1u);
   EXPECT_EQ(fleet.robots[stop.parts[0].robot].state, MissionState::kDone);
@@ -109,10 +109,10 @@ TEST(ExchangeStops, NobodyWaitsForOneWithoutBattery) {
   VirtualFleet fleet = fleet_on(with_stops());
   const Detour& stop = first_stop();
   const std::size_t weak = stop.parts[0].robot;
-  fleet.run(kLimit, [&] {
+  fleet.run(kLongLimit, [&] {
     if (fleet.now == 60.0) fleet.robots[weak].battery = 0.05;
   });
-  EXPECT_LT(fleet.now, kLimit);
+  EXPECT_LT(fleet.now, kLongLimit);
   EXPECT_EQ(fleet.rows_driven(), fleet.plan->mission.rows.size());
   EXPECT_GE(fleet.robots[weak].executive->status().stops_dropped, 1u);
   EXPECT_GE(fleet.robots[stop.parts[1].robot].executive->status().stops_dropped, 1u);
@@ -125,9 +125,9 @@ TEST(ExchangeStops, RobotThatWaitsInVainAtAStopGoesOn) {
   const std::size_t late = stop.parts[0].robot;
   const std::size_t waits = stop.parts[1].robot;
   const double speed = fleet.robots[late].speed;
-  fleet.run(kLimit,
+  fleet.run(kLongLimit,
             [&] { fleet.robots[late].speed = fleet.now < 60.0 || fleet.now > 1500.0 ? speed : 0.02; });
-  EXPECT_LT(fleet.now, kLimit);
+  EXPECT_LT(fleet.now, kLongLimit);
   EXPECT_EQ(fleet.rows_driven(), fleet.plan->mission.rows.size());
   EXPECT_GE(fleet.robots[waits].executive->status().stops_dropped, 1u);
 }
@@ -135,15 +135,15 @@ TEST(ExchangeStops, RobotThatWaitsInVainAtAStopGoesOn) {
 TEST(ExchangeStops, ARadioThatNeverBringsAnythingHoldsNobody) {
   VirtualFleet fleet = fleet_on(with_stops());
   fleet.radio.emplace(fleet.plan->fleet.size(), 1.0, 60e3, 90.0);
-  fleet.run(3.0 * kLimit);
-  EXPECT_LT(fleet.now, 3.0 * kLimit);
+  fleet.run(3.0 * kLongLimit);
+  EXPECT_LT(fleet.now, 3.0 * kLongLimit);
   EXPECT_EQ(fleet.rows_driven(), fleet.plan->mission.rows.size());
   EXPECT_EQ(kept(fleet), 0u);
 }
 
 TEST(ExchangeStops, ThereAreNoneInTheOtherDivisions) {
   for (const DivisionMethod method : {DivisionMethod::kBalanced, DivisionMethod::kUniform}) {
-    const auto plan = plan_for(method);
+    const auto plan = plan_by(method);
     EXPECT_TRUE(plan->exchange->stops.empty());
     EXPECT_EQ(plan->completion, plan->exchange->completion_without_stops);
   }

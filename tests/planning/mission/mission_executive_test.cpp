@@ -10,12 +10,11 @@
 namespace fleetmap::planning {
 namespace {
 
+using testing::kLimit;
+using testing::kLoss;
 using testing::VirtualFleet;
 
-constexpr double kLoss = 0.3;
-constexpr double kLimit = 6000.0;
-
-std::shared_ptr<const FleetPlan> plan_for(int robots, bool mixed = false) {
+std::shared_ptr<const FleetPlan> executive_plan(int robots, bool mixed = false) {
   testing::SiteSpec spec;
   spec.width = spec.depth = 120.0;
   spec.missing = 0.1;
@@ -40,7 +39,7 @@ void expect_at_the_meeting(const VirtualFleet& fleet) {
 
 TEST(MissionExecutive, AFleetWithoutTroubleDrivesItsPlan) {
   for (int robots = 2; robots <= 5; ++robots) {
-    VirtualFleet fleet(plan_for(robots), kLoss, 7);
+    VirtualFleet fleet(executive_plan(robots), kLoss, 7);
     const double time = fleet.run(kLimit);
     expect_all_driven(fleet);
     expect_at_the_meeting(fleet);
@@ -52,7 +51,7 @@ TEST(MissionExecutive, AFleetWithoutTroubleDrivesItsPlan) {
 TEST(MissionExecutive, TheRowsOfAKilledRobotAreTakenOver) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const int robots = 2 + static_cast<int>(seed % 4);
-    VirtualFleet fleet(plan_for(robots), kLoss, seed);
+    VirtualFleet fleet(executive_plan(robots), kLoss, seed);
     const std::size_t victim = seed % static_cast<std::size_t>(robots);
     fleet.run(kLimit, [&] {
       if (fleet.now == 100.0) fleet.kill(victim);
@@ -63,7 +62,7 @@ TEST(MissionExecutive, TheRowsOfAKilledRobotAreTakenOver) {
 }
 
 TEST(MissionExecutive, OnlyTheLastRobotIsLeftAndDrivesEverything) {
-  VirtualFleet fleet(plan_for(3), kLoss, 3);
+  VirtualFleet fleet(executive_plan(3), kLoss, 3);
   fleet.run(kLimit, [&] {
     if (fleet.now == 60.0) fleet.kill(0);
     if (fleet.now == 130.0) fleet.kill(1);
@@ -74,7 +73,7 @@ TEST(MissionExecutive, OnlyTheLastRobotIsLeftAndDrivesEverything) {
 
 TEST(MissionExecutive, ALateRobotGetsWork) {
   for (const std::size_t late : {0u, 2u}) {
-    VirtualFleet fleet(plan_for(3), kLoss, 11);
+    VirtualFleet fleet(executive_plan(3), kLoss, 11);
     fleet.kill(late);
     fleet.run(kLimit, [&] {
       if (fleet.now == 150.0) fleet.start(late);
@@ -87,10 +86,10 @@ TEST(MissionExecutive, ALateRobotGetsWork) {
 
 TEST(MissionExecutive, ARestartedRobotGoesOnWithWhatTheOthersKnow) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    VirtualFleet fleet(plan_for(3), kLoss, seed);
+    VirtualFleet fleet(executive_plan(3), kLoss, seed);
     double undisturbed = 0.0;
     {
-      VirtualFleet other(plan_for(3), kLoss, seed);
+      VirtualFleet other(executive_plan(3), kLoss, seed);
       undisturbed = other.run(kLimit);
     }
     const double time = fleet.run(kLimit, [&] {
@@ -104,7 +103,7 @@ TEST(MissionExecutive, ARestartedRobotGoesOnWithWhatTheOthersKnow) {
 }
 
 TEST(MissionExecutive, ARobotThatIsOnlyOutOfReachAgreesAgain) {
-  VirtualFleet fleet(plan_for(3), kLoss, 5);
+  VirtualFleet fleet(executive_plan(3), kLoss, 5);
   fleet.silent = [](std::size_t k, double now) { return k == 1 && now > 60.0 && now < 240.0; };
   fleet.run(kLimit);
   expect_all_driven(fleet);
@@ -112,13 +111,13 @@ TEST(MissionExecutive, ARobotThatIsOnlyOutOfReachAgreesAgain) {
 }
 
 TEST(MissionExecutive, AFleetThatHearsNothingAtAllStillDrivesEverything) {
-  VirtualFleet fleet(plan_for(2), 1.0, 5);
+  VirtualFleet fleet(executive_plan(2), 1.0, 5);
   fleet.run(3.0 * kLimit);
   expect_all_driven(fleet);
 }
 
 TEST(MissionExecutive, ABlockedRowIsTriedFromBothEndsAndEndsTheMission) {
-  VirtualFleet fleet(plan_for(3), kLoss, 2);
+  VirtualFleet fleet(executive_plan(3), kLoss, 2);
   const Row& row = fleet.plan->mission.rows[4];
   fleet.obstacles.push_back({0.5 * (row.waypoints.front() + row.waypoints.back()), 3.0});
   fleet.run(kLimit);
@@ -127,7 +126,7 @@ TEST(MissionExecutive, ABlockedRowIsTriedFromBothEndsAndEndsTheMission) {
 }
 
 TEST(MissionExecutive, ARowThatNobodyCanEnterIsAbandoned) {
-  VirtualFleet fleet(plan_for(3), kLoss, 2);
+  VirtualFleet fleet(executive_plan(3), kLoss, 2);
   const Row& row = fleet.plan->mission.rows[4];
   fleet.obstacles.push_back({row.waypoints.front(), 3.0});
   fleet.obstacles.push_back({row.waypoints.back(), 3.0});
@@ -139,7 +138,7 @@ TEST(MissionExecutive, ARowThatNobodyCanEnterIsAbandoned) {
 }
 
 TEST(MissionExecutive, TheReasonForAnAbandonedRowIsTold) {
-  VirtualFleet fleet(plan_for(3), kLoss, 2);
+  VirtualFleet fleet(executive_plan(3), kLoss, 2);
   const Row& row = fleet.plan->mission.rows[4];
   const Eigen::Vector2d middle = 0.5 * (row.waypoints.front() + row.waypoints.back());
   fleet.obstacles.push_back({middle, 20.0});
@@ -172,7 +171,7 @@ TEST(MissionExecutive, ARowWithAThingAcrossItIsDrivenOnceBothSidesAreSeen) {
 }
 
 TEST(MissionExecutive, AFleetThatIsStuckAltogetherEnds) {
-  VirtualFleet fleet(plan_for(2), kLoss, 2);
+  VirtualFleet fleet(executive_plan(2), kLoss, 2);
   const double time = fleet.run(kLimit, [&] {
     for (auto& robot : fleet.robots) {
       if (fleet.now >= 100.0) robot.speed = 0.0;
@@ -188,7 +187,7 @@ TEST(MissionExecutive, AFleetThatIsStuckAltogetherEnds) {
 }
 
 TEST(MissionExecutive, WhereverARobotReallyBeginsItDrivesItsShare) {
-  auto plan = plan_for(3);
+  auto plan = executive_plan(3);
   VirtualFleet fleet(plan, kLoss, 6);
   fleet.robots[0].pose.position += Eigen::Vector2d(-3.0, 6.0);
   fleet.robots[1].pose.position += Eigen::Vector2d(-7.0, -4.0);
@@ -199,7 +198,7 @@ TEST(MissionExecutive, WhereverARobotReallyBeginsItDrivesItsShare) {
 }
 
 TEST(MissionExecutive, AStuckRobotGivesItsRowsAway) {
-  VirtualFleet fleet(plan_for(3), kLoss, 2);
+  VirtualFleet fleet(executive_plan(3), kLoss, 2);
   fleet.run(kLimit, [&] {
     if (fleet.now == 100.0) fleet.obstacles.push_back({fleet.robots[1].pose.position, 1e-3});
     if (fleet.now >= 100.0) fleet.robots[1].speed = 0.0;
@@ -211,7 +210,7 @@ TEST(MissionExecutive, AStuckRobotGivesItsRowsAway) {
 }
 
 TEST(MissionExecutive, ARobotLowOnBatteryDrivesHome) {
-  VirtualFleet fleet(plan_for(3), kLoss, 9);
+  VirtualFleet fleet(executive_plan(3), kLoss, 9);
   fleet.robots[2].drain = 1.0 / 300.0;
   fleet.run(kLimit);
   expect_all_driven(fleet);
@@ -221,7 +220,7 @@ TEST(MissionExecutive, ARobotLowOnBatteryDrivesHome) {
 
 TEST(MissionExecutive, TheSameInputGivesTheSameMission) {
   const auto once = [] {
-    VirtualFleet fleet(plan_for(3), kLoss, 4);
+    VirtualFleet fleet(executive_plan(3), kLoss, 4);
     fleet.run(400.0, [&] {
       if (fleet.now == 90.0) fleet.kill(0);
     });
@@ -237,7 +236,7 @@ TEST(MissionExecutive, TheSameInputGivesTheSameMission) {
 }
 
 TEST(MissionExecutive, ReportsAreSmallAndBrokenOnesAreIgnored) {
-  const auto plan = plan_for(2);
+  const auto plan = executive_plan(2);
   auto executive = *MissionExecutive::create(plan, testing::name(0));
   executive.update({stamp_from_ns(1), plan->fleet[0].start});
   const MissionReport own = executive.report();
@@ -277,7 +276,7 @@ MissionReport forged_report(const FleetPlan& plan, Stamp now) {
 
 TEST(MissionExecutive, ForgedReportsMakeNobodySkipARow) {
   for (const bool claims : {false, true}) {
-    VirtualFleet fleet(plan_for(3), kLoss, 4);
+    VirtualFleet fleet(executive_plan(3), kLoss, 4);
     fleet.run(kLimit, [&] {
       if (static_cast<int>(fleet.now) % 60 != 30 || fleet.now > 400.0) return;
       MissionReport forged = forged_report(*fleet.plan, fleet.stamp());
@@ -291,7 +290,7 @@ TEST(MissionExecutive, ForgedReportsMakeNobodySkipARow) {
 }
 
 TEST(MissionExecutive, HearsayCountsForRowsWithNodesAlongThem) {
-  const auto plan = plan_for(3);
+  const auto plan = executive_plan(3);
   auto executive = *MissionExecutive::create(plan, testing::name(0));
   MissionInput input{stamp_from_ns(1), plan->fleet[0].start};
   executive.update(input);
@@ -314,7 +313,7 @@ TEST(MissionExecutive, HearsayCountsForRowsWithNodesAlongThem) {
 }
 
 TEST(MissionExecutive, KeepsTheLastReportOfEachOtherRobot) {
-  const auto plan = plan_for(3);
+  const auto plan = executive_plan(3);
   auto executive = *MissionExecutive::create(plan, testing::name(0));
   executive.update({stamp_from_ns(1), plan->fleet[0].start});
   EXPECT_TRUE(executive.heard_reports().empty());
@@ -330,7 +329,7 @@ TEST(MissionExecutive, KeepsTheLastReportOfEachOtherRobot) {
 }
 
 TEST(MissionExecutive, WithoutAPositionTheRobotStands) {
-  const auto plan = plan_for(2);
+  const auto plan = executive_plan(2);
   auto executive = *MissionExecutive::create(plan, testing::name(0));
   const MissionAction action = executive.update({stamp_from_ns(1), {{std::nan(""), 0.0}, 0.0}});
   EXPECT_EQ(action.kind, MissionAction::Kind::kHold);

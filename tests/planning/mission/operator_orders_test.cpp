@@ -9,10 +9,9 @@
 namespace fleetmap::planning {
 namespace {
 
+using testing::kLimit;
+using testing::kLoss;
 using testing::VirtualFleet;
-
-constexpr double kLoss = 0.3;
-constexpr double kLimit = 6000.0;
 
 class OperatorOrders : public ::testing::TestWithParam<std::uint64_t> {
  protected:

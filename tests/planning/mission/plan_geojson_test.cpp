@@ -12,7 +12,7 @@
 namespace fleetmap::planning {
 namespace {
 
-LocalFrame site_frame() { return LocalFrame(geo_point_from_degrees(48.1, 11.6, 520.0)); }
+using testing::site_frame;
 
 TEST(PlanGeoJson, APlanShowsWhoDrivesWhatAndIsADrawingAgain) {
   testing::SiteSpec spec;

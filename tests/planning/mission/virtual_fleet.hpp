@@ -17,6 +17,9 @@
 
 namespace fleetmap::planning::testing {
 
+inline constexpr double kLoss = 0.3;      ///< share of the reports that get lost
+inline constexpr double kLimit = 6000.0;  ///< s
+
 /// Executives on robots that drive their paths exactly, with reports that get lost. One step is a second.
 class VirtualFleet {
  public:

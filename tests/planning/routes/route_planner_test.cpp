@@ -13,6 +13,7 @@ namespace fleetmap::planning {
 namespace {
 
 using Eigen::Vector2d;
+using testing::box;
 using ::testing::HasSubstr;
 
 Mission with(std::vector<KeepOut> keep_out, double reach = 60.0) {
@@ -21,9 +22,8 @@ Mission with(std::vector<KeepOut> keep_out, double reach = 60.0) {
   mission.keep_out = std::move(keep_out);
   return mission;
 }
-KeepOut box(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
-double distance_to(const KeepOut& polygon, const Vector2d& p) {
+double distance_to_outline(const KeepOut& polygon, const Vector2d& p) {
   double best = 1e9;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vector2d a = polygon[k];
@@ -49,7 +49,7 @@ TEST(RoutePlanner, GoesAroundACornerAtTheClearance) {
   EXPECT_NEAR(length_of(line), shortest, 1.0);
   for (std::size_t k = 1; k < line.size(); ++k) {
     for (double t = 0.0; t <= 1.0; t += 0.01) {
-      EXPECT_GT(distance_to(wall, line[k - 1] + t * (line[k] - line[k - 1])), 0.7 - 0.2);
+      EXPECT_GT(distance_to_outline(wall, line[k - 1] + t * (line[k] - line[k - 1])), 0.7 - 0.2);
     }
   }
 }

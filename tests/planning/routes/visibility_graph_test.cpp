@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/sites.hpp"
+
 namespace fleetmap::planning {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kClearance = 0.7;
+using testing::kClearance;
 
 struct Site {
   explicit Site(std::vector<KeepOut> keep_out)

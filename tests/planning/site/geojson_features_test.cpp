@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "planning/sites.hpp"
 
 namespace fleetmap::planning {
@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const LocalFrame kSite(geo_point_from_degrees(48.1, 11.6, 520.0));
 
 json read(const GeoJsonFeatures& features) { return json::parse(features.text()); }

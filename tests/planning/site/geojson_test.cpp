@@ -12,8 +12,7 @@ namespace fleetmap::planning {
 namespace {
 
 using ::testing::HasSubstr;
-
-LocalFrame site_frame() { return LocalFrame(geo_point_from_degrees(48.1, 11.6, 520.0)); }
+using testing::site_frame;
 
 std::string collection(const std::string& features, const std::string& more = "") {
   return "{\"type\": \"FeatureCollection\"," + more + "\"features\": [" + features + "]}";

@@ -11,7 +11,7 @@
 namespace fleetmap::planning {
 namespace {
 
-const LocalFrame kSite(geo_point_from_degrees(-33.9, 18.4, 25.0));
+const LocalFrame kSouthernSite(geo_point_from_degrees(-33.9, 18.4, 25.0));
 
 Mission drawing() {
   testing::SiteSpec spec;
@@ -33,8 +33,8 @@ TEST(GeoJsonWriter, AMissionIsReadFromItsFileAsItWas) {
   const Mission mission = drawing();
   for (const auto& [frame, error] : {std::pair{FileFrame::kEnu, 1.5e-6}, {FileFrame::kWgs84, 2e-4}}) {
     const auto file = folder.path() / "site.geojson";
-    ASSERT_TRUE(write_geojson(file, mission, kSite, frame));
-    const auto again = read_geojson(file, kSite);
+    ASSERT_TRUE(write_geojson(file, mission, kSouthernSite, frame));
+    const auto again = read_geojson(file, kSouthernSite);
     ASSERT_TRUE(again) << again.error().message;
     ASSERT_EQ(again->rows.size(), mission.rows.size());
     for (std::size_t k = 0; k < mission.rows.size(); ++k) {
@@ -57,20 +57,20 @@ TEST(GeoJsonWriter, RowsComeFirstWithTheirNumbers) {
   Mission mission;
   mission.rows = {{7, {{0, 0}, {9, 0}}}, {3, {{0, 5}, {9, 5}}}};
   mission.keep_out = {{{0, 1}, {4, 1}, {0, 2}}};
-  const auto json = nlohmann::json::parse(to_geojson(mission, kSite, FileFrame::kEnu));
+  const auto json = nlohmann::json::parse(to_geojson(mission, kSouthernSite, FileFrame::kEnu));
   EXPECT_EQ(json["frame"], "enu");
   ASSERT_EQ(json["features"].size(), 3u);
   EXPECT_EQ(json["features"][0]["properties"], nlohmann::json::parse(R"({"row": 7})"));
   EXPECT_EQ(json["features"][1]["properties"], nlohmann::json::parse(R"({"row": 3})"));
   EXPECT_EQ(json["features"][2]["geometry"]["type"], "Polygon");
-  EXPECT_FALSE(nlohmann::json::parse(to_geojson(mission, kSite)).contains("frame"))
+  EXPECT_FALSE(nlohmann::json::parse(to_geojson(mission, kSouthernSite)).contains("frame"))
       << "WGS84, as the RFC has it";
 }
 
 TEST(GeoJsonWriter, UnwritableFileIsNamed) {
   const fleetmap::testing::TemporaryFolder folder;
   const auto file = folder.path() / "no" / "site.geojson";
-  const Status written = write_geojson(file, drawing(), kSite);
+  const Status written = write_geojson(file, drawing(), kSouthernSite);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().message, file.string() + ": cannot be written: No such file or directory");
 }

@@ -3,16 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planning/sites.hpp"
+
 namespace fleetmap::planning {
 namespace {
 
 using ::testing::HasSubstr;
-
-Mission three_rows() {
-  Mission mission;
-  mission.rows = {{4, {{0, 0}, {100, 0}}}, {7, {{0, 8}, {30, 8}, {30, 48}}}, {9, {{0, 16}, {100, 16}}}};
-  return mission;
-}
+using testing::three_rows;
 
 TEST(Mission, ABoundaryIsCheckedLikeAKeepOut) {
   Mission mission = three_rows();

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "planning/sites.hpp"
+
 namespace fleetmap::planning {
 namespace {
 
-Mission three_rows() {
-  Mission mission;
-  mission.rows = {{4, {{0, 0}, {100, 0}}}, {7, {{0, 8}, {30, 8}, {30, 48}}}, {9, {{0, 16}, {100, 16}}}};
-  return mission;
-}
+using testing::three_rows;
 
 TEST(SelectedRows, EachNthKeepsItsId) {
   const Mission mission = with_selected_rows(three_rows(), {.every = 2});

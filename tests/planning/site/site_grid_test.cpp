@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <random>
 
+#include "planning/sites.hpp"
+
 namespace fleetmap::planning {
 namespace {
 
 using Eigen::Vector2d;
+using testing::box;
+using testing::kClearance;
 
-constexpr double kClearance = 0.7;
 constexpr double kCell = 0.25;
 
 Mission with_boxes(const std::vector<KeepOut>& boxes) {
@@ -19,7 +22,6 @@ Mission with_boxes(const std::vector<KeepOut>& boxes) {
   mission.keep_out = boxes;
   return mission;
 }
-KeepOut box(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
 /// m, of p to a box; 0 inside.
 double distance_to(const KeepOut& b, const Vector2d& p) {
