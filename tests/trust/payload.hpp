@@ -4,7 +4,7 @@
 
 namespace fleetmap::testing {
 
-/// What a robot sends, and the radio that it uses.
+/// Payload of a datagram, and the radio that carries it.
 inline const Bytes kText{10, 20, 30, 40};
 inline constexpr std::uint8_t kRadio = 1;
 
