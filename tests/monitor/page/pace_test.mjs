@@ -52,7 +52,7 @@ assert.ok(mean > 15, `points are left out for nothing: a frame takes ${mean} ms`
 // All is drawn again once it becomes faster.
 assert.deepEqual(frames(steady, 400, 8).at(-1), full);
 
-// Pictures of a view that stands still take a quarter of the time at most; those of a graphics card do not wait a frame.
+// Pictures of a view that stands still take a quarter of the time at most; a graphics card's do not wait a frame.
 const still = new Pace(full);
 assert.equal(still.rest(1000), 0);
 still.drewStill(1000, 1080);
