@@ -1,7 +1,7 @@
 // The robots heard on a radio and their differences, in the log of the robots and in DdsBus::survey().
 #include <gmock/gmock.h>
 
-#include "bus/lone_radio.hpp"
+#include "bus/dds/lone_radio.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {

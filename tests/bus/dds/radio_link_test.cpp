@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "bus/lone_radio.hpp"
+#include "bus/dds/lone_radio.hpp"
 #include "bus/qos_directory.hpp"
 
 namespace fleetmap::bus::testing {

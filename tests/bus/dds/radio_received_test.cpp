@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/lone_radio.hpp"
+#include "bus/dds/lone_radio.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
 
 namespace fleetmap::bus::testing {

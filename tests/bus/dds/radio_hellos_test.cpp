@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "bus/lone_radio.hpp"
-#include "bus/udp_end.hpp"
+#include "bus/dds/lone_radio.hpp"
+#include "bus/dds/udp_end.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {

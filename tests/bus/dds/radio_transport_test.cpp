@@ -1,9 +1,9 @@
 // Datagrams on a radio, with keys and without, as the wire sees them.
 #include <random>
 
+#include "bus/dds/lone_radio.hpp"
 #include "bus/dds/participant_qos.hpp"
-#include "bus/lone_radio.hpp"
-#include "bus/udp_end.hpp"
+#include "bus/dds/udp_end.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
 #include "fleetmap/core/utc.hpp"
 #include "trust/fleet_of_keys.hpp"

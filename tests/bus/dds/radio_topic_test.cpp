@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "bus/lone_radio.hpp"
+#include "bus/dds/lone_radio.hpp"
 #include "bus/topics.hpp"
 
 namespace fleetmap::bus::testing {

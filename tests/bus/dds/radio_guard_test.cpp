@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "bus/dds/hello.hpp"
+#include "bus/dds/lone_radio.hpp"
 #include "bus/dds/rtps_header.hpp"
-#include "bus/lone_radio.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
 #include "trust/fleet_of_keys.hpp"
 

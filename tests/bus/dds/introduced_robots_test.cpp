@@ -4,10 +4,10 @@
 #include <deque>
 
 #include "bus/dds/introductions.hpp"
+#include "bus/dds/lone_radio.hpp"
 #include "bus/dds/rtps_messages.hpp"
-#include "bus/lone_radio.hpp"
+#include "bus/dds/udp_end.hpp"
 #include "bus/topics.hpp"
-#include "bus/udp_end.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {
