@@ -121,7 +121,7 @@ function(fleetmap_library name)
 endfunction()
 
 # fleetmap_test(place SOURCES ball_tree_test.cpp LINK fleetmap::place) makes one test program
-# test_place; ctest lists its cases one by one. LABEL is
+# test_place; ctest lists its cases one by one (under AddressSanitizer: its suites). LABEL is
 #   unit         unless said otherwise: what runs under sanitizers too;
 #   drive        whole drives, whose accuracy is measured: minutes under a sanitizer, and shorter ones go the same way;
 #   integration  needs the program, or libraries that no sanitizer has been told about.
@@ -176,6 +176,7 @@ function(fleetmap_discover_suites name label timeout)
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake CONTENT
     "if(EXISTS \"${list}\")\n  include(\"${list}\")\nelse()\n  add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake)
+  set_property(TARGET test_${name} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/ListSuites.cmake)
 endfunction()
 
 # fleetmap_bench(place SOURCES bench/ball_tree_bench.cpp LINK fleetmap::place) makes bench_place.

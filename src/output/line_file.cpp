@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -20,13 +21,14 @@ bool ends_within_a_line(const std::filesystem::path& path) {
   return in.get() != '\n';
 }
 
-/// As a power cut at the file's first line leaves it.
+/// As a power cut at the file's first line leaves it: part of the header, perhaps followed by zeros.
 bool holds_a_torn_header(const std::filesystem::path& path, const std::string& header) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
   if (error || bytes > header.size()) return false;
   std::string text(bytes, '\0');
   std::ifstream(path, std::ios::binary).read(text.data(), static_cast<std::streamsize>(bytes));
+  text.resize(std::min(text.size(), text.find_last_not_of('\0') + 1));
   return header.starts_with(text);
 }
 

@@ -22,7 +22,7 @@ TEST(TwinRtk, MapLiesAsExactlyAsTheFixes) {
     const auto errors = eval::compare(*placed, *truth);
     ASSERT_TRUE(errors) << errors.error().message;
     testing::expect_at_most(errors->ate_rmse, 0.08, "RTK, ATE in m", seed);
-    testing::expect_at_most(errors->ate_rmse_aligned, 0.012, "RTK, ATE aligned in m", seed);
+    testing::expect_at_most(errors->ate_rmse_aligned, 0.014, "RTK, ATE aligned in m", seed);
   }
 }
 

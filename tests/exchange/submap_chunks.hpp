@@ -7,5 +7,6 @@
 namespace fleetmap::exchange {
 
 inline constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
+static_assert(kChunk == 8192);
 
 }  // namespace fleetmap::exchange

@@ -90,7 +90,8 @@ TEST(LineFile, ALineThatWasCutOffIsEnded) {
 
 TEST(LineFile, AHeaderThatWasCutOffIsWrittenAnew) {
   const testing::TemporaryFolder folder;
-  for (const char* left : {"", "target,sou", "target,source"}) {
+  using namespace std::string_literals;
+  for (const std::string& left : {""s, "target,sou"s, "target,source"s, "targ\0\0\0"s, "\0\0"s}) {
     const auto path = folder.write("lines.csv", left);
     ASSERT_TRUE(LineFile::open(path, std::ios::app, {100, "target,source"}).value().add("1,2"));
     EXPECT_EQ(testing::file_text(path), "target,source\n1,2\n") << left;

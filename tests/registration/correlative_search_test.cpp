@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "registration/made_world.hpp"
 #include "registration/points.hpp"

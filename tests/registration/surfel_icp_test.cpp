@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <initializer_list>
 #include <random>
-#include <vector>
 
 #include "registration/points.hpp"
 

@@ -3,6 +3,7 @@
 #include <pcl/io/hdl_grabber.h>
 #include <pcl/io/vlp_grabber.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -60,7 +61,7 @@ std::string capture_of(const std::vector<Bytes>& packets) {
   return capture;
 }
 
-/// The first `wanted` returns that a grabber gives, in the order in which they were fired.
+/// The first `wanted` returns of a grabber, in the order in which they were fired.
 std::vector<Return> grabbed(pcl::HDLGrabber& grabber, std::size_t wanted) {
   using OnSweep = pcl::HDLGrabber::sig_cb_velodyne_hdl_sweep_point_cloud_xyzi;
   std::mutex mutex;
@@ -83,7 +84,7 @@ std::vector<Return> grabbed(pcl::HDLGrabber& grabber, std::size_t wanted) {
   return returns;
 }
 
-/// PCL takes all lasers of a block (of the VLP-16: of half a block) for fired at once.
+/// PCL assumes that all lasers of a block (of the VLP-16: of half a block) fire at once.
 void expect_same_returns(const std::vector<Return>& ours, const std::vector<Return>& theirs,
                          double max_azimuth_apart) {
   ASSERT_GE(theirs.size(), ours.size() / 3);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "fleetmap/core/bytes.hpp"
 
 namespace fleetmap::testing {

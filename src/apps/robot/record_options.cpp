@@ -36,7 +36,7 @@ void add_record_options(CLI::App& command, RecordOptions& options, const std::st
       ->needs(record)
       ->check([&options](const std::string&) {  // after --record-format, wherever that is on the command line
         return options.format.storage == BagStorage::kSqlite
-                   ? "is of MCAP: with --record-format sqlite3 nothing is compressed"
+                   ? "applies to MCAP; sqlite3 recordings are not compressed"
                    : "";
       });
 }

@@ -65,8 +65,7 @@ double heading_variance(const GpsWindow& window, const FleetPlacementConfig& con
 
 /// Variance of the position in a window by an error of G's heading that lasts longer than the window. It
 /// rotates each window's track alike, so it is multiplied by the number of windows that share it, `windows`
-/// at most. Before that it is at most the filter's own variance of the position: RTK fixes hold the track
-/// however wrong the heading is.
+/// at most. It is capped by the filter's variance of the position, which contains its heading error.
 Eigen::Vector3d variance_by_heading(const GpsWindow& window, const Eigen::Vector3d& moved_enu, double seconds,
                                     std::size_t windows) {
   const double lasts = window.variance(5) / kReckoningTurn;  // s

@@ -54,7 +54,7 @@ export class FleetMap {
   private ratio = 0; // device pixels per pixel, now
   private moved = -Infinity; // when the view did, ms
   private still?: ReturnType<typeof setTimeout>;
-  private resting?: ReturnType<typeof setTimeout>; // before a picture that is scheduled
+  private resting?: ReturnType<typeof setTimeout>; // until a picture of what has arrived
   private ramp?: {key: string; range: [number, number]};
 
   constructor(
@@ -65,7 +65,7 @@ export class FleetMap {
     this.renderer = makeRenderer(canvas, !onCpu);
     this.renderer.autoClear = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    this.submaps = new Submaps(this.style, () => this.draw());
+    this.submaps = new Submaps(this.style, () => this.drawArrived());
     this.points = onCpu ? new CpuPoints(this.submaps.pool, this.style) : new GlPoints(this.submaps.pool, this.renderer);
     const full = {shaded: true, detailed: true, ratio: Math.min(2, window.devicePixelRatio), share: 1};
     this.pace = new Pace(full, drawnShare());
@@ -78,7 +78,6 @@ export class FleetMap {
   /** The view has moved. When it stands still it is drawn with all effort. */
   private move(): void {
     this.moved = performance.now();
-    if (this.resting) this.requestFrame();
     this.draw();
     clearTimeout(this.still);
     this.still = setTimeout(() => this.draw(), kStill_ms + 20);
@@ -103,13 +102,18 @@ export class FleetMap {
     this.submaps.keepOnly(wanted);
     this.ramp = undefined;
     this.edges = edgesOf(state);
-    this.remark();
+    this.setLines();
     if (!this.eye.fitted && this.nodes.size > 0) this.fit();
+    this.drawArrived();
+  }
+
+  /** Lines and nodes anew: after the time, a layer or the selection changed. */
+  remark(): void {
+    this.setLines();
     this.draw();
   }
 
-  /** Lines and nodes anew: after a state, the time, a layer or the selection changed. */
-  remark(): void {
+  private setLines(): void {
     if (!this.state) return;
     const place = (id: string) => this.nodes.get(id)?.p;
     this.lines.show({
@@ -121,7 +125,6 @@ export class FleetMap {
       dots: this.layers.nodes,
       selected: this.selected,
     });
-    this.draw();
   }
 
   private isThere(id: string): boolean {
@@ -203,21 +206,23 @@ export class FleetMap {
   }
 
   draw(): void {
-    if (this.scheduled) return;
-    this.scheduled = true;
-    const now = performance.now(),
-      rest = now - this.moved < kStill_ms ? 0 : this.pace.rest(now);
-    if (rest > 0) this.resting = setTimeout(() => this.requestFrame(), rest);
-    else this.requestFrame();
-  }
-
-  private requestFrame(): void {
     clearTimeout(this.resting);
     this.resting = undefined;
+    if (this.scheduled) return;
+    this.scheduled = true;
     requestAnimationFrame(() => {
       this.scheduled = false;
       this.render();
     });
+  }
+
+  /** States and points arrive all the time: their pictures leave time to the rest of the page. */
+  private drawArrived(): void {
+    if (this.scheduled || this.resting) return;
+    const now = performance.now(),
+      rest = now - this.moved < kStill_ms ? 0 : this.pace.rest(now);
+    if (rest > 0) this.resting = setTimeout(() => this.draw(), rest);
+    else this.draw();
   }
 
   private render(): void {

@@ -14,13 +14,14 @@ const kLevels = 3;
 const kMinShare = 1 / 4;
 const kCoarse = 0.6; // pixels that are drawn along a side, of those that there are
 export const kStill_ms = 180; // without a change: the view stands still
-const kStillShare = 1 / 4; // of the time in which a view that stands still is drawn: states arrive all the time
+const kStillShare = 1 / 4; // of the time that drawing a still view may take
+const kMaxRest_ms = 1000;
 
 /**
  * Chooses the effort of a picture: all of it while the view stands still. While it moves and frames take longer than
  * 33 ms, first the shading is left out, then the finer pixels and the nodes, then points; each submap then shows its
- * coarser ones. If drawing costs little, as with a graphics card, nothing changes. Pictures of a view that stands still
- * leave three quarters of the time to the rest of the page.
+ * coarser ones. If drawing costs little, as with a graphics card, nothing changes. Pictures of what
+ * arrives while the view stands still leave three quarters of the time to the rest of the page.
  */
 export class Pace {
   private level = 0; // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
@@ -55,7 +56,7 @@ export class Pace {
 
   /** A picture of a view that stands still was drawn from `began` to `ended`, ms. */
   drewStill(began: number, ended: number): void {
-    this.restsUntil = ended + (ended - began) * (1 / kStillShare - 1);
+    this.restsUntil = ended + Math.min(kMaxRest_ms, (ended - began) * (1 / kStillShare - 1));
   }
 
   /** Time until the next picture of a view that stands still, ms. */

@@ -16,6 +16,7 @@ globalThis.location = {search: '?points=cpu'};
 
 class Renderer {
   ratio = 1;
+  cost = 0; // ms that a scene takes
   rendered = []; // the objects of each scene since the last look
   setSize() {}
   setPixelRatio(ratio) {
@@ -30,6 +31,7 @@ class Renderer {
   setClearColor() {}
   clear() {}
   render(scene) {
+    time += this.cost;
     this.rendered.push(scene.children.filter((one) => one.visible).map((one) => one.type));
   }
 }
@@ -51,11 +53,15 @@ globalThis.fetch = async (address) => {
 };
 const {now} = performance,
   timers = {set: globalThis.setTimeout, clear: globalThis.clearTimeout};
-let time = 0,
-  later;
+let time = 0;
+const waiting = new Set();
 performance.now = () => time;
-globalThis.setTimeout = (act, ms) => (later = {act, at: time + ms});
-globalThis.clearTimeout = () => (later = undefined);
+globalThis.setTimeout = (act, ms) => {
+  const timer = {act, at: time + ms};
+  waiting.add(timer);
+  return timer;
+};
+globalThis.clearTimeout = (timer) => waiting.delete(timer);
 try {
   const renderer = new Renderer(),
     pictures = [];
@@ -64,10 +70,9 @@ try {
   /** Draws what is due, `ms` later; returns how many pictures that were. */
   const frames = (ms = 16) => {
     time += ms;
-    if (later && later.at <= time) {
-      const {act} = later;
-      later = undefined;
-      act();
+    for (const timer of [...waiting]) {
+      if (timer.at > time || !waiting.delete(timer)) continue;
+      timer.act();
     }
     const before = pictures.length;
     for (const act of page.frames.splice(0)) act(time);
@@ -213,6 +218,22 @@ try {
   frames();
   assert.equal(pictures.at(-1).drawn, 500);
   map.showOnly(undefined);
+
+  // Pictures of what arrives leave time to the page; one of what the user does is drawn at the next frame.
+  frames(5000);
+  renderer.cost = 80;
+  map.draw();
+  assert.equal(frames(), 1);
+  map.show(fleet());
+  map.show(fleet());
+  assert.equal(frames(), 0, 'it rests');
+  assert.equal(frames(1000), 1, 'one picture of both states');
+  map.show(fleet());
+  assert.equal(frames(), 0);
+  map.select({node: 'r1#0'});
+  assert.equal(frames(), 1);
+  assert.equal(frames(5000), 0, 'the state was in that picture');
+  renderer.cost = 0;
 
   // Robots that are gone take their points with them, and the plan tells that it is one.
   map.show(fleet({nodes: fleet().nodes.slice(0, 1), alignments: [], registrations: []}));
