@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "exchange/submap_chunks.hpp"
 #include "support/field_bounds.hpp"
 
