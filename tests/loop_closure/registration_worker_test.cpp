@@ -56,6 +56,7 @@ class RegistrationWorkerTest : public ::testing::Test {
 };
 
 TEST_F(RegistrationWorkerTest, RegistersTwoOwnNodesAndRecordsTheInput) {
+  track_.run();  // virtual time begins at 0
   ASSERT_TRUE(worker_.register_own(target_, source_, prior_, collect()));
   EXPECT_FALSE(worker_.idle());
   EXPECT_TRUE(done_.empty()) << "the work runs off the caller's thread";
