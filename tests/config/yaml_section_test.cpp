@@ -205,8 +205,8 @@ TEST(YamlSection, AKeyOfAnEarlierVersionIsRefusedWithItsPresentName) {
             "field/r1.yaml:1: loop_candidates.ripe_nodes: this key was renamed; write 'min_nodes_after'\n"
             "field/r1.yaml:1: loop_candidates.least_gain: unknown key; known here: min_nodes_after\n"
             "field/r1.yaml:1: encounters: this key was renamed; write 'loop_candidates'\n"
-            "field/r1.yaml:1: loop_closures: this key was renamed; write 'own_path'\n"
-            "field/r1.yaml:1: settle_time: this key was renamed; write 'exchange_timeout'");
+            "field/r1.yaml:1: settle_time: this key was renamed; write 'exchange_timeout'\n"
+            "field/r1.yaml:1: loop_closures: this key was renamed; write 'own_path'");
 }
 
 TEST(YamlSection, AnErrorOfAComponentStandsAtTheKeyThatItNames) {
