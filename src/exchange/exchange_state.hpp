@@ -10,7 +10,7 @@
 #include "budget_shares.hpp"
 #include "cloud_exchange.hpp"
 #include "fleetmap/exchange/exchange.hpp"
-#include "fleetmap/exchange/hold_orders.hpp"
+#include "fleetmap/orders/hold_orders.hpp"
 #include "item_exchange.hpp"
 #include "membership.hpp"
 #include "misbehaviour.hpp"

@@ -6,14 +6,16 @@
 #include <fstream>
 
 #include "agent/lapping_robot.hpp"
-#include "agent/two_robots.hpp"
 #include "bus/captured_log.hpp"
 #include "fleetmap/core/paths.hpp"
+#include "support/robots.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
+using fleetmap::testing::kPeer;
+using fleetmap::testing::kSelf;
 using namespace std::chrono_literals;
 using fleetmap::testing::LappingRobot;
 using fleetmap::testing::TemporaryFolder;
@@ -32,7 +34,7 @@ class AgentTest : public ::testing::Test {
     AgentConfig config;
     config.id = AgentId::parse(name).value();
     config.directory = folder_.path() / name;
-    config.exchange.fleet = {kSelf, kOther};
+    config.exchange.fleet = {kSelf, kPeer};
     config.store.power_safe = false;
     return config;
   }

@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "agent/two_robots.hpp"
+#include "support/robots.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
+using fleetmap::testing::kStart;
 using namespace std::chrono_literals;
 
 /// A scan at `now`, its odometry and pose at once.

@@ -2,22 +2,24 @@
 
 #include <gtest/gtest.h>
 
-#include "agent/two_robots.hpp"
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
 #include "store/items.hpp"
+#include "support/robots.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
+using fleetmap::testing::kPeer;
+using fleetmap::testing::kSelf;
 using namespace std::chrono_literals;
 
 exchange::Exchange make_exchange(store::Store& store, exchange::CloudClient& cloud_client) {
   exchange::ExchangeConfig config;
-  config.fleet = {kSelf, kOther};
+  config.fleet = {kSelf, kPeer};
   config.payload_size = [](const messages::Message& message) { return fleet_codec::encode(message).size(); };
   return exchange::Exchange::make(config, store, cloud_client, {}).value();
 }
@@ -26,9 +28,9 @@ TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
   const testing::TemporaryFolder folder;
   const auto network = bus::LocalNetwork::create({}).value();
   bus::Bus& own = network->add_robot(kSelf);
-  bus::Bus& other = network->add_robot(kOther);
+  bus::Bus& other = network->add_robot(kPeer);
   network->set_position(kSelf, {0.0, 0.0, 0.0});
-  network->set_position(kOther, {10.0, 0.0, 0.0});
+  network->set_position(kPeer, {10.0, 0.0, 0.0});
   auto store = store::Store::open(folder.path() / "store.db", kSelf).value();
   loop_closure::CandidateScheduler cloud_client(kSelf, {});
   exchange::Exchange exchange = make_exchange(store, cloud_client);
@@ -38,10 +40,10 @@ TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
     other.publish(fleet_codec::topic_of(message), fleet_codec::encode(message));
   };
   int asked = 0;
-  const messages::Message request = messages::ItemRequest{kOther, kSelf, {{kSelf, 0, 1}}, {}};
+  const messages::Message request = messages::ItemRequest{kPeer, kSelf, {{kSelf, 0, 1}}, {}};
   const bus::Handle heard = other.subscribe(
-      fleet_codec::topic_of(messages::ItemRequest{kSelf, kOther, {}, {}}), [&](const Bytes&) { ++asked; });
-  say(messages::Digest{kOther, {{kOther, 0, 3}}, {}, {0}, {}});
+      fleet_codec::topic_of(messages::ItemRequest{kSelf, kPeer, {}, {}}), [&](const Bytes&) { ++asked; });
+  say(messages::Digest{kPeer, {{kPeer, 0, 3}}, {}, {0}, {}});
   network->run_until(Stamp{} + 120s);
   EXPECT_GE(asked, 2) << "r1 asks for what it lacks, again and again";
   EXPECT_EQ(link.counters().last_useful, Stamp{});
@@ -84,7 +86,7 @@ std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   const testing::TemporaryFolder folder;
   const auto network = bus::LocalNetwork::create({}).value();
   TalkativeRadio radio(network->add_robot(kSelf), bytes_a_tick);
-  network->add_robot(kOther);
+  network->add_robot(kPeer);
   auto store = store::Store::open(folder.path() / "store.db", kSelf).value();
   loop_closure::CandidateScheduler cloud_client(kSelf, {});
   exchange::Exchange exchange = make_exchange(store, cloud_client);
@@ -93,7 +95,7 @@ std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   EXPECT_TRUE(exchange.provide_cloud(node, Bytes(25'000, 7), radio.now()));
   FleetLink link(kSelf, radio, exchange, [] {});
   for (int k = 0; k < 20; ++k) {
-    const messages::Message request = messages::CloudRequest{kOther, kSelf, node, {}};
+    const messages::Message request = messages::CloudRequest{kPeer, kSelf, node, {}};
     exchange.on_message(request, radio.now());
     network->run_until(radio.now() + 1s);
   }

@@ -4,14 +4,17 @@
 
 #include <vector>
 
-#include "agent/two_robots.hpp"
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "store/items.hpp"
+#include "support/robots.hpp"
 
 namespace fleetmap::agent {
 namespace {
+
+using fleetmap::testing::kPeer;
+using fleetmap::testing::kSelf;
 
 /// Two robots on one straight way to the east, 5 m between nodes, the other's 3 m beside ours. Our odometry
 /// began somewhere else, turned; nobody told where.
@@ -55,8 +58,8 @@ class LivePlacementTest : public ::testing::Test {
     ASSERT_TRUE(put && *put == store::Put::kAdded);
   }
   void add_alignment(std::uint32_t seq) {
-    graph::Alignment alignment = testing::make_alignment({kSelf, seq}, {kOther, seq}, kOther, seq);
-    alignment.modes.front().T_i_j = T_enu_node(kSelf, seq).inverse() * T_enu_node(kOther, seq);
+    graph::Alignment alignment = testing::make_alignment({kSelf, seq}, {kPeer, seq}, kPeer, seq);
+    alignment.modes.front().T_i_j = T_enu_node(kSelf, seq).inverse() * T_enu_node(kPeer, seq);
     const Result<store::Put> put = store_.put_alignment(alignment);
     ASSERT_TRUE(put && *put == store::Put::kAdded);
   }
@@ -90,7 +93,7 @@ class LivePlacementTest : public ::testing::Test {
 
 TEST_F(LivePlacementTest, ARobotThatNobodyCanPlaceHasNoCorrectedPoseUntilTheFleetPlacesIt) {
   for (std::uint32_t seq = 0; seq < 12; ++seq) add_node(kSelf, seq, false);
-  for (std::uint32_t seq = 0; seq < 12; ++seq) add_node(kOther, seq, true);
+  for (std::uint32_t seq = 0; seq < 12; ++seq) add_node(kPeer, seq, true);
   solve();
   EXPECT_EQ(used_, std::vector<std::size_t>{0});
   EXPECT_TRUE(heard_at(11).empty());

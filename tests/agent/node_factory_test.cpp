@@ -2,13 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "agent/two_robots.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
+#include "support/robots.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
+using fleetmap::testing::kSelf;
+using fleetmap::testing::kStart;
 using namespace std::chrono_literals;
 
 constexpr std::uint16_t kSession = 4711;

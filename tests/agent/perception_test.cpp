@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "agent/two_robots.hpp"
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
@@ -14,11 +13,13 @@
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
+#include "support/robots.hpp"
 #include "support/synthetic_lidar.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
+using fleetmap::testing::kStart;
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

@@ -5,17 +5,20 @@
 #include <fstream>
 #include <iterator>
 
-#include "agent/two_robots.hpp"
 #include "support/file_content.hpp"
+#include "support/robots.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
+using fleetmap::testing::kPeer;
+using fleetmap::testing::kSelf;
+
 loop_closure::Registration accepted() {
   loop_closure::Registration one;
   one.target.id = {kSelf, 3};
-  one.source.id = {kOther, 7};
+  one.source.id = {kPeer, 7};
   one.done = stamp_from_ns(12'500'000'000);
   one.cpu_seconds = 1.5;
   registration::RegistrationResult result;

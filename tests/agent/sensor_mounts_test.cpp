@@ -4,11 +4,12 @@
 
 #include <numbers>
 
-#include "agent/two_robots.hpp"
+#include "support/robots.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
+using fleetmap::testing::kStart;
 using namespace std::chrono_literals;
 using sensor::Source;
 using State = SensorMounts::State;

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "store/items.hpp"
+#include "support/robots.hpp"
 
 namespace fleetmap::fault_injection {
 
-inline const std::vector<AgentId> kFleet{fleetmap::testing::agent("r1"), fleetmap::testing::agent("r2"),
-                                         fleetmap::testing::agent("r3")};
-inline constexpr Stamp kNow = stamp_from_ns(1'700'000'000'000'000'000);
+inline const std::vector<AgentId> kFleet{fleetmap::testing::kSelf, fleetmap::testing::kPeer,
+                                         fleetmap::testing::kThird};
+inline constexpr Stamp kNow = fleetmap::testing::kStart;
 
 }  // namespace fleetmap::fault_injection

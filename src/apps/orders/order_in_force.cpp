@@ -31,8 +31,8 @@ bool confirms(const RowOrder& in_force, const RowOrder& order) { return in_force
 
 /// The order that a robot which sent `hold` obeys in place of `order`; none if it has not heard of that.
 std::optional<HoldOrder> obeyed(const HoldOrder& order, const Hold& hold) {
-  const auto in_force = exchange::order_for(hold.from, hold.orders);
-  return in_force && !exchange::replaces(order, *in_force) ? in_force : std::nullopt;
+  const auto in_force = orders::order_for(hold.from, hold.orders);
+  return in_force && !orders::replaces(order, *in_force) ? in_force : std::nullopt;
 }
 
 std::optional<RowOrder> obeyed(const RowOrder& order, const Hold& hold) {
@@ -89,7 +89,7 @@ void OrderInForce::on_hold(const Hold& hold) {
           confirmed_[hold.from] = hold.driving;
         } else if (renewals_ < kMaxRenewals) {
           ++renewals_;
-          order.stamp = exchange::later_than(orders_like(order, hold), bus_.now());
+          order.stamp = orders::later_than(orders_like(order, hold), bus_.now());
           confirmed_.clear();
           send();
         }

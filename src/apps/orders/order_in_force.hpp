@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/exchange/hold_orders.hpp"
+#include "fleetmap/orders/hold_orders.hpp"
 
 namespace fleetmap::apps {
 

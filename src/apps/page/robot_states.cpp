@@ -109,7 +109,7 @@ monitor::RobotNow robot_now(const FleetState& fleet, const AgentId& id) {
   robot.id = id;
   if (const auto status = fleet.statuses.find(id); status != fleet.statuses.end())
     add_status(status->second, robot);
-  const auto order = exchange::order_for(id, fleet.orders);
+  const auto order = orders::order_for(id, fleet.orders);
   robot.ordered_to_hold = order && order->stops();
   robot.called_home = order && order->calls_home();
   if (const auto report = fleet.reports.find(id); report != fleet.reports.end())

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fleetmap/exchange/hold_orders.hpp"
 #include "fleetmap/messages/messages.hpp"
 #include "fleetmap/monitor/live_status.hpp"
+#include "fleetmap/orders/hold_orders.hpp"
 #include "fleetmap/planning/site/mission.hpp"
 #include "robot/link_log.hpp"
 

@@ -5,12 +5,14 @@
 #include <fstream>
 #include <iterator>
 
-#include "apps/two_robots.hpp"
+#include "support/robots.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
+using fleetmap::testing::kPeer;
+using fleetmap::testing::kSelf;
 using ::testing::ElementsAre;
 using namespace std::chrono_literals;
 
@@ -33,11 +35,11 @@ class LinkLogTest : public ::testing::Test {
   }
   static bus::HeardTraffic traffic(bus::Link link, std::uint64_t messages, std::uint64_t bytes,
                                    std::uint64_t lost = 0) {
-    return {link, kR2, messages, 0, bytes, lost, messages, 20ms};
+    return {link, kPeer, messages, 0, bytes, lost, messages, 20ms};
   }
 
   testing::TemporaryFolder folder_;
-  LinkLog log_ = LinkLog::open(folder_.path(), kR1).value();
+  LinkLog log_ = LinkLog::open(folder_.path(), kSelf).value();
 };
 
 TEST_F(LinkLogTest, ARowIsOfOneSecondAndOneRobot) {
@@ -59,8 +61,9 @@ TEST_F(LinkLogTest, ADelayIsOfMessagesThatCarryATime) {
 
 TEST_F(LinkLogTest, CapacityOfTheLinkIsKnownWhileSubmapsFillIt) {
   log_.add_traffic({}, {}, kOpened);
-  log_.add_traffic({traffic(bus::Link::kShortRange, 100, 500'000)}, {kR2}, kOpened + 1s);  // begun within it
-  log_.add_traffic({traffic(bus::Link::kShortRange, 200, 1'000'000)}, {kR2}, kOpened + 2s);
+  log_.add_traffic({traffic(bus::Link::kShortRange, 100, 500'000)}, {kPeer},
+                   kOpened + 1s);  // begun within it
+  log_.add_traffic({traffic(bus::Link::kShortRange, 200, 1'000'000)}, {kPeer}, kOpened + 2s);
   EXPECT_THAT(rows(), ElementsAre("1000.0,short_range,r2,r1,,20.0,0.0,4000.0,100",
                                   "1001.0,short_range,r2,r1,8000.0,20.0,0.0,8000.0,200"));
 }
@@ -94,24 +97,24 @@ TEST_F(LinkLogTest, KeepsWhenARobotWasLastHeardOnEachLink) {
   log_.add_traffic({traffic(bus::Link::kLongRange, 1, 125)}, {}, kOpened + 9s);
   const auto& heard = log_.last_heard();
   ASSERT_EQ(heard.size(), 2u);
-  const LinkLog::Heard near = heard.at({bus::Link::kShortRange, kR2});
+  const LinkLog::Heard near = heard.at({bus::Link::kShortRange, kPeer});
   EXPECT_EQ(near.at, kOpened + 1s);
   EXPECT_TRUE(near.silent);
-  EXPECT_EQ(heard.at({bus::Link::kLongRange, kR2}).at, kOpened + 9s);
-  EXPECT_FALSE(heard.at({bus::Link::kLongRange, kR2}).silent);
+  EXPECT_EQ(heard.at({bus::Link::kLongRange, kPeer}).at, kOpened + 9s);
+  EXPECT_FALSE(heard.at({bus::Link::kLongRange, kPeer}).silent);
 }
 
 TEST_F(LinkLogTest, ALineThatWasCutOffIsEnded) {
   const auto file = folder_.path() / "link_trace.csv";
   std::ofstream(file, std::ios::app) << "1005.0,long_ra";
-  LinkLog later = LinkLog::open(folder_.path(), kR1).value();
+  LinkLog later = LinkLog::open(folder_.path(), kSelf).value();
   later.add_traffic({}, {}, kOpened);
   later.add_traffic({traffic(bus::Link::kLongRange, 5, 1250)}, {}, kOpened + 1s);
   EXPECT_THAT(rows(), ElementsAre("1005.0,long_ra", "1000.0,long_range,r2,r1,,20.0,0.0,10.0,5"));
 }
 
 TEST_F(LinkLogTest, EachNodeIsWrittenOnceAndALaterStartGoesOn) {
-  const NodeId first{kR1, 0}, second{kR2, 3};
+  const NodeId first{kSelf, 0}, second{kPeer, 3};
   store::SeqSet nodes;
   nodes.insert(first.agent, first.seq);
   log_.add_nodes(nodes, kOpened);
@@ -121,12 +124,12 @@ TEST_F(LinkLogTest, EachNodeIsWrittenOnceAndALaterStartGoesOn) {
   const auto file = folder_.path() / "node_times.csv";
   EXPECT_THAT(lines_of(file), ElementsAre("time_ns,node", "1000000000000," + to_string(first),
                                           "1001000000000," + to_string(second)));
-  ASSERT_TRUE(LinkLog::open(folder_.path(), kR1));
+  ASSERT_TRUE(LinkLog::open(folder_.path(), kSelf));
   EXPECT_EQ(lines_of(file).size(), 3u);
 }
 
 TEST(LinkLogFile, AFolderThatIsNotThereIsNamed) {
-  const auto log = LinkLog::open("/no/such/folder", kR1);
+  const auto log = LinkLog::open("/no/such/folder", kSelf);
   ASSERT_FALSE(log);
   EXPECT_THAT(log.error().message, ::testing::HasSubstr("/no/such/folder/link_trace.csv"));
 }

@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/two_robots.hpp"
 #include "fleetmap/core/time.hpp"
+#include "support/robots.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
+using fleetmap::testing::kPeer;
 using namespace std::chrono_literals;
 
 constexpr Stamp kFirst{1000s};
@@ -18,7 +19,7 @@ bus::TopicStats topic(const std::string& name, bus::Link link, std::uint64_t sen
 
 bus::HeardTraffic heard_traffic(std::uint64_t messages, std::uint64_t bytes, std::uint64_t lost,
                                 Duration delay) {
-  return {bus::Link::kLongRange, kR2, messages, 0, bytes, lost, messages, delay};
+  return {bus::Link::kLongRange, kPeer, messages, 0, bytes, lost, messages, delay};
 }
 
 TEST(RadioRates, TheLastSecondAgainstTheBudgetIsTheDifferenceOfTheCounters) {
@@ -60,7 +61,7 @@ TEST(RadioRates, LossAndDelayAreMeansOverTheMessagesOfTheWindow) {
   rates.add({}, {heard_traffic(1, 200, 0, 10ms)}, kFirst + 1s);
   const auto radio = rates.add({}, {heard_traffic(3, 400, 4, 30ms)}, kFirst + 2s);
   ASSERT_EQ(radio.peers.size(), 1u);
-  EXPECT_EQ(radio.peers[0].peer, kR2);
+  EXPECT_EQ(radio.peers[0].peer, kPeer);
   EXPECT_DOUBLE_EQ(radio.peers[0].received, 300.0);
   EXPECT_DOUBLE_EQ(radio.peers[0].loss, 0.5);
   EXPECT_NEAR(radio.peers[0].delay_s.value(), 0.025, 1e-9);

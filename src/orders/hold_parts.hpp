@@ -5,7 +5,7 @@
 
 #include "fleetmap/messages/messages.hpp"
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 
 /// The orders of a large fleet divided among messages of at most `max_orders` orders (2 or more). Each has
 /// the order for all and the one for `self`, so that its receiver sees in any of them what `self` obeys. If
@@ -14,4 +14,4 @@ namespace fleetmap::exchange {
 std::vector<std::vector<messages::HoldOrder>> hold_parts(const std::vector<messages::HoldOrder>& orders,
                                                          const AgentId& self, std::size_t max_orders);
 
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders

@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/row_orders.hpp"
+#include "fleetmap/orders/row_orders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "store/items.hpp"
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 namespace {
 
 using testing::agent;
@@ -68,4 +68,4 @@ TEST(RowOrders, AStampLaterThanAllOfThemReplacesThem) {
 }
 
 }  // namespace
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 
 std::vector<std::vector<messages::HoldOrder>> hold_parts(const std::vector<messages::HoldOrder>& orders,
                                                          const AgentId& self, std::size_t max_orders) {
@@ -23,4 +23,4 @@ std::vector<std::vector<messages::HoldOrder>> hold_parts(const std::vector<messa
   return parts;
 }
 
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders

@@ -6,17 +6,18 @@
 #include <algorithm>
 #include <string>
 
-#include "exchange/robots.hpp"
-#include "exchange/sim_fleet.hpp"
-#include "fleetmap/exchange/hold_orders.hpp"
 #include "fleetmap/fleet_codec/bounds.hpp"
+#include "fleetmap/orders/hold_orders.hpp"
+#include "store/items.hpp"
+#include "support/robots.hpp"
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 namespace {
 
 using namespace std::chrono_literals;
 using testing::agent;
 using ::testing::Contains;
+using testing::kStart;
 using ::testing::SizeIs;
 using Kind = HoldOrder::Kind;
 using Part = std::vector<HoldOrder>;
@@ -105,4 +106,4 @@ TEST_F(FortyRobots, OneThatMissedAllOrdersReceivesThem) {
 }
 
 }  // namespace
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders

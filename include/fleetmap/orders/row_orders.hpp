@@ -10,7 +10,7 @@
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/messages/messages.hpp"
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 
 using messages::RowOrder;
 
@@ -42,4 +42,4 @@ Stamp later_than(const std::vector<Order>& orders, Stamp now) {
   return stamp;
 }
 
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders

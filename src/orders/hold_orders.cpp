@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/hold_orders.hpp"
+#include "fleetmap/orders/hold_orders.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "hold_parts.hpp"
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 namespace {
 
 constexpr Duration kRepeatPeriod = std::chrono::seconds(10);
@@ -197,4 +197,4 @@ void HoldOrders::load(ByteView encoded) {
   }
 }
 
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders

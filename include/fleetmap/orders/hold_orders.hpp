@@ -10,10 +10,10 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/row_orders.hpp"
 #include "fleetmap/messages/messages.hpp"
+#include "fleetmap/orders/row_orders.hpp"
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 
 using messages::Hold;
 using messages::HoldOrder;
@@ -95,4 +95,4 @@ class HoldOrders {
   std::optional<Stamp> next_;
 };
 
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders

@@ -1,10 +1,10 @@
-#include "fleetmap/exchange/row_orders.hpp"
+#include "fleetmap/orders/row_orders.hpp"
 
 #include <algorithm>
 #include <sstream>
 #include <tuple>
 
-namespace fleetmap::exchange {
+namespace fleetmap::orders {
 namespace {
 
 constexpr const char* kAnyone = "*";
@@ -62,4 +62,4 @@ std::optional<RowOrder> RowOrders::order_of(const std::string& line) {
   return RowOrder{stamp_from_ns(ns), *whose, *whom, *by, row};
 }
 
-}  // namespace fleetmap::exchange
+}  // namespace fleetmap::orders
