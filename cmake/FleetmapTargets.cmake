@@ -159,7 +159,7 @@ function(fleetmap_test name)
     target_precompile_headers(test_${name} REUSE_FROM fleetmap_precompiled_tests)
   endif()
   if(FLEETMAP_SANITIZE MATCHES "address")
-    fleetmap_discover_suites(${name} ${ARG_LABEL} ${ARG_TIMEOUT})
+    fleetmap_discover_suites(${name} ${ARG_LABEL} ${ARG_TIMEOUT} ${ARG_REAL_TIME})
   else()
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 300
                          PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_REAL_TIME})
@@ -167,12 +167,13 @@ function(fleetmap_test name)
 endfunction()
 
 # Under AddressSanitizer a process takes longer to start than most tests to run, so ctest lists the suites of a program.
-function(fleetmap_discover_suites name label timeout)
+function(fleetmap_discover_suites name label timeout real_time)
   set(list ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_suites.cmake)
   add_custom_command(
     TARGET test_${name} POST_BUILD BYPRODUCTS ${list} VERBATIM
     COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:test_${name}> -D NAME=${name} -D LABEL=${label}
-            -D TIMEOUT=${timeout} -D LIST=${list} -P ${PROJECT_SOURCE_DIR}/cmake/ListSuites.cmake)
+            -D TIMEOUT=${timeout} -D REAL_TIME=${real_time} -D LIST=${list}
+            -P ${PROJECT_SOURCE_DIR}/cmake/ListSuites.cmake)
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake CONTENT
     "if(EXISTS \"${list}\")\n  include(\"${list}\")\nelse()\n  add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake)

@@ -1,5 +1,5 @@
-# cmake -D PROGRAM= -D NAME= -D LABEL= -D TIMEOUT= -D LIST= -P ListSuites.cmake writes into the file LIST a test of ctest
-# for each suite of a program of GoogleTest.
+# cmake -D PROGRAM= -D NAME= -D LABEL= -D TIMEOUT= -D REAL_TIME= -D LIST= -P ListSuites.cmake writes into the file
+# LIST a test of ctest for each suite of a program of GoogleTest.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "${PROGRAM} --gtest_list_tests: ${failed}")
@@ -12,6 +12,7 @@ set(tests "")
 foreach(suite ${suites})
   string(REGEX REPLACE "[\n.]" "" suite "${suite}")
   string(APPEND tests "add_test([=[${NAME}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-                      "set_tests_properties([=[${NAME}.${suite}]=] PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT})\n")
+                      "set_tests_properties([=[${NAME}.${suite}]=] PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT} "
+                      "RUN_SERIAL ${REAL_TIME})\n")
 endforeach()
 file(WRITE ${LIST} "${tests}")

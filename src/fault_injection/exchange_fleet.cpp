@@ -94,14 +94,14 @@ void ExchangeFleet::lose_store(const AgentId& name) const {
 }
 
 void ExchangeFleet::damage_store(const AgentId& name, double at) const {
-  constexpr std::size_t kPage = 4096;
+  constexpr std::size_t kPageBytes = 4096;
   const std::filesystem::path path = file(name, kDatabase);
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
-  if (error || size < kPage) return;
+  if (error || size < kPageBytes) return;
   std::fstream out(path, std::ios::binary | std::ios::in | std::ios::out);
-  out.seekp(static_cast<std::streamoff>(at * static_cast<double>(size / kPage)) * kPage);
-  const std::string garbage(kPage, '\x5a');
+  out.seekp(static_cast<std::streamoff>(at * static_cast<double>(size / kPageBytes)) * kPageBytes);
+  const std::string garbage(kPageBytes, '\x5a');
   out.write(garbage.data(), static_cast<std::streamsize>(garbage.size()));
 }
 

@@ -7,11 +7,12 @@
 #include <limits>
 #include <random>
 
-#include "eval/points.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::eval {
 namespace {
 
+using fleetmap::testing::Points;
 using ::testing::ElementsAre;
 
 TEST(DensityAt, CountsPointsUpToTheRadiusAndTheQueryItself) {

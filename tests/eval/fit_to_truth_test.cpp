@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "eval/points.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::eval {
 namespace {
+
+using fleetmap::testing::Points;
 
 /// Planes of 5 m x 5 m, sampled every 0.1 m, with their normals.
 struct Truth {

@@ -7,11 +7,13 @@
 #include <limits>
 #include <random>
 
-#include "eval/points.hpp"
 #include "fleetmap/eval/density.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::eval {
 namespace {
+
+using fleetmap::testing::Points;
 
 /// z = height on [0, width) x [0, depth), one point every `step`.
 Points plane(float width, float depth, float step, float height = 0.0f) {

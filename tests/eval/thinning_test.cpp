@@ -9,13 +9,14 @@
 #include <random>
 #include <set>
 
-#include "eval/points.hpp"
 #include "support/field_bounds.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::eval {
 namespace {
 
 using fleetmap::testing::kNaN;
+using fleetmap::testing::Points;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;

@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "registration/points.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-using testing::Points;
+using fleetmap::testing::Points;
 
 /// Level ground of 20 m x 20 m around the origin at height 1.
 Points ground() {

@@ -7,15 +7,15 @@
 #include <random>
 
 #include "registration/made_world.hpp"
-#include "registration/points.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3d;
+using fleetmap::testing::Points;
 using testing::level_pose;
-using testing::Points;
 
 /// Posts of different heights at random places on level ground of 40 m x 40 m.
 Points place() {

@@ -6,14 +6,14 @@
 #include <initializer_list>
 #include <random>
 
-#include "registration/points.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using testing::Points;
+using fleetmap::testing::Points;
 
 /// Square plates across the given axes, at 16 places 16 m apart. Plates of one place do not touch.
 Points plates(std::initializer_list<int> normals, float half_edge, float spacing = 0.2f) {

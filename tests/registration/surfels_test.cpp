@@ -6,13 +6,13 @@
 #include <cmath>
 #include <random>
 
-#include "registration/points.hpp"
+#include "support/points.hpp"
 
 namespace fleetmap::registration {
 namespace {
 
 using Eigen::Vector3f;
-using testing::Points;
+using fleetmap::testing::Points;
 using Reach = SurfelMap::Reach;
 
 constexpr float kNoise = SurfelConfig{}.noise_m;

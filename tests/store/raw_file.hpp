@@ -8,7 +8,7 @@
 
 namespace fleetmap::testing {
 
-inline constexpr std::size_t kPage = 4096;  ///< bytes; SQLite's default
+inline constexpr std::size_t kPageBytes = 4096;  ///< bytes; SQLite's default
 
 inline void write_file(const std::filesystem::path& file, const Bytes& bytes) {
   std::ofstream(file, std::ios::binary)

@@ -17,7 +17,7 @@ using testing::agent;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::kMetaValue;
-using testing::kPage;
+using testing::kPageBytes;
 using testing::kPeer;
 using testing::kSelf;
 using testing::make_alignment;
@@ -76,9 +76,9 @@ TEST_F(SalvageTest, DamageIsDescribed) {
   EXPECT_THAT(damage(), Optional(HasSubstr("its header does not name it a store")));
   run_sql(file_, "PRAGMA application_id = 1179405648; DELETE FROM meta WHERE key = 'self'");
   EXPECT_THAT(damage(), Optional(HasSubstr("it names no owner")));
-  overwrite(file_, 2 * kPage, Bytes(kPage, 0xff));
+  overwrite(file_, 2 * kPageBytes, Bytes(kPageBytes, 0xff));
   EXPECT_THAT(damage(), Optional(HasSubstr("age 3"))) << "SQLite names the page";
-  overwrite(file_, 0, Bytes(kPage, 'x'));
+  overwrite(file_, 0, Bytes(kPageBytes, 'x'));
   EXPECT_THAT(damage(), Optional(HasSubstr("file is not a database")));
 }
 

@@ -20,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::kMetaValue;
-using testing::kPage;
+using testing::kPageBytes;
 using testing::kPeer;
 using testing::kSelf;
 using testing::make_alignment;
@@ -53,7 +53,7 @@ class StoreDamage : public ::testing::Test {
     auto store = Store::open(file_, kSelf).value();
     fill_with_items(store);
   }
-  std::size_t pages() const { return fs::file_size(file_) / kPage; }
+  std::size_t pages() const { return fs::file_size(file_) / kPageBytes; }
   fs::path aside(int number = 1) const { return file_.string() + ".damaged-" + std::to_string(number); }
 
   /// Everything in the store is what was put, and of that at most so many are missing.
@@ -116,7 +116,7 @@ TEST_F(StoreDamage, WithoutItsHeaderItKeepsAll) {
 }
 
 TEST_F(StoreDamage, WithoutItsFirstPageItKeepsAll) {
-  overwrite(file_, 0, random_bytes(kPage, 1));
+  overwrite(file_, 0, random_bytes(kPageBytes, 1));
   expect_salvaged(0, 0, 0);
 }
 
@@ -129,7 +129,7 @@ TEST_F(StoreDamage, OverwrittenPageLosesItsItemsAlone) {
     SCOPED_TRACE("page " + std::to_string(page + 1));
     fs::remove(aside());
     fs::copy_file(copy, file_, fs::copy_options::overwrite_existing);
-    overwrite(file_, page * kPage, random_bytes(kPage, static_cast<std::uint32_t>(page)));
+    overwrite(file_, page * kPageBytes, random_bytes(kPageBytes, static_cast<std::uint32_t>(page)));
     auto store = Store::open(file_, kSelf);
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_FALSE(store->damage().empty());
@@ -139,12 +139,12 @@ TEST_F(StoreDamage, OverwrittenPageLosesItsItemsAlone) {
 
 TEST_F(StoreDamage, OfATornMiddleItKeepsBothSides) {
   for (std::size_t page = pages() / 2; page < pages() / 2 + 10; ++page)
-    overwrite(file_, page * kPage, Bytes(kPage));
+    overwrite(file_, page * kPageBytes, Bytes(kPageBytes));
   expect_salvaged(kNodes / 4, kNodes / 4, kNodes / 4);
 }
 
 TEST_F(StoreDamage, ATruncatedFileKeepsWhatIsLeft) {
-  fs::resize_file(file_, pages() / 2 * kPage + 100);
+  fs::resize_file(file_, pages() / 2 * kPageBytes + 100);
   expect_salvaged(kNodes * 2 / 3, kNodes * 2 / 3, kNodes * 2 / 3);
 }
 
@@ -200,7 +200,7 @@ TEST_F(StoreDamage, ALogWithoutItsDatabaseIsRead) {
 /// itself.
 class StoreLog : public ::testing::Test {
  protected:
-  static constexpr std::uintmax_t kFrame = 24 + kPage;
+  static constexpr std::uintmax_t kFrame = 24 + kPageBytes;
 
   StoreLog() {
     auto store = Store::open(running_, kSelf).value();
@@ -263,7 +263,7 @@ TEST_F(StoreDamage, ASalvageThatWasKilledGoesOnAtTheNextStart) {
     fs::copy_file(file_, other);
     overwrite(other, 0, Bytes(100));
     fs::copy_file(file_, other.string() + left);
-    if (std::string(left) == ".salvaging") fs::resize_file(other.string() + left, kPage);
+    if (std::string(left) == ".salvaging") fs::resize_file(other.string() + left, kPageBytes);
     auto store = Store::open(other, kSelf);
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_TRUE(fs::exists(other.string() + ".damaged-1"));

@@ -70,5 +70,32 @@ TEST(GpsWindows, DriftsAreLessCorrelatedAfterMoreTime) {
   }
 }
 
+TEST(GpsWindows, AHeadingErrorAddsItsArcButNoMoreThanTheFiltersVariance) {
+  const SimulatedFleet fleet(4);
+  const ReducedFleet reduced(fleet);
+  const ReducedGraph& graph = reduced.graph;
+  const GpsWindow window = gps_windows(graph.nodes, graph.frames.front(), {}).front();
+  const Node &anchor = *graph.nodes[window.first], &last = *graph.nodes[window.end - 1];
+  const Eigen::Vector3d moved = anchor.T_odom_base.linear().transpose() *
+                                (last.T_odom_base.translation() - anchor.T_odom_base.translation());
+  ASSERT_GT(moved.head<2>().norm(), 2.0);
+  const auto added_by = [&](double heading_variance, double position_variance) -> Eigen::Vector3d {
+    const auto rest = [&](double of_heading) {
+      GpsWindow one = window;
+      one.variance.head<3>().setConstant(position_variance);
+      one.variance(5) = of_heading;
+      PoseVariable variable = graph.poses.front();
+      variable.lever = variable.fix = Eigen::Vector3d::Zero();
+      return with_window(variable, graph.nodes, one, 1, fleet.site, {}).rest_variance;
+    };
+    return rest(heading_variance) - rest(0.0);
+  };
+  const Eigen::Vector3d of_gps = added_by(1e-4, 1.0), of_rtk = added_by(1e-4, 4e-6);
+  EXPECT_NEAR(of_gps.sum(), 1e-4 * moved.head<2>().squaredNorm(), 1e-6)
+      << "1 m: the heading rotates the track";
+  EXPECT_LE(of_rtk.maxCoeff(), 4e-6 + 1e-12) << "2 mm: no heading error can have moved it farther";
+  EXPECT_GT(of_rtk.maxCoeff(), 2e-6);
+}
+
 }  // namespace
 }  // namespace fleetmap::graph
