@@ -75,15 +75,28 @@ json radio_json(const RadioNow& radio) {
           {"seconds_to_equal_map", optional_json(radio.seconds_to_equal_map, 1.0)}};
 }
 
+json maps_json(const FleetMaps& maps) {
+  json not_counted = json::array();
+  for (const AgentId& id : maps.not_counted) not_counted.push_back(id.str());
+  return {{"last", maps.last ? json(maps.last->str()) : json()},
+          {"missing_submaps", maps.missing_submaps},
+          {"seconds_to_equal", optional_json(maps.seconds_to_equal, 1.0)},
+          {"not_counted", std::move(not_counted)}};
+}
+
 }  // namespace
 
 std::string live_json(const LiveStatus& status, bool operated) {
   json robots = json::array(), sensors = json::array();
   for (const RobotNow& robot : status.robots) robots.push_back(robot_json(robot));
   for (const SensorNow& sensor : status.sensors) sensors.push_back(sensor_json(sensor));
-  const json live{{"self", status.self.str()},         {"lost_after_s", rounded(status.lost_after_s, 10.0)},
-                  {"robots", std::move(robots)},       {"sensors", std::move(sensors)},
-                  {"radio", radio_json(status.radio)}, {"operated", operated}};
+  const json live{{"self", status.self.str()},
+                  {"lost_after_s", rounded(status.lost_after_s, 10.0)},
+                  {"robots", std::move(robots)},
+                  {"sensors", std::move(sensors)},
+                  {"radio", radio_json(status.radio)},
+                  {"maps", maps_json(status.maps)},
+                  {"operated", operated}};
   return json{{"live", live}}.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

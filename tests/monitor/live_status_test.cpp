@@ -79,6 +79,16 @@ TEST(LiveStatus, radio_and_sensors_are_written) {
   EXPECT_TRUE(radio["seconds_to_equal_map"].is_null()) << "none arrive";
 }
 
+TEST(LiveStatus, time_until_maps_are_equal_is_written) {
+  LiveStatus status;
+  status.maps = {agent("r3"), 20, 299.6, {agent("r2")}};
+  EXPECT_EQ(written(status)["maps"], json::parse(R"({"last": "r3", "missing_submaps": 20,
+                                                     "seconds_to_equal": 300.0, "not_counted": ["r2"]})"));
+  status.maps = {};
+  EXPECT_TRUE(written(status)["maps"]["last"].is_null());
+  EXPECT_TRUE(written(status)["maps"]["seconds_to_equal"].is_null());
+}
+
 TEST(LiveStatus, tells_whether_orders_may_be_given) {
   EXPECT_EQ(written({}, false)["operated"], false);
   EXPECT_EQ(written({}, true)["operated"], true);

@@ -85,6 +85,14 @@ struct RadioNow {
   std::optional<double> seconds_to_equal_map;  ///< at the present rate of submaps; empty while none come
 };
 
+/// How far the robots' maps are from equal, by what each says that it holds.
+struct FleetMaps {
+  std::optional<AgentId> last;             ///< it will lack submaps for the longest; empty: none lacks one
+  std::size_t missing_submaps = 0;         ///< of `last`
+  std::optional<double> seconds_to_equal;  ///< at the rates of the last minute; empty while `last` gets none
+  std::vector<AgentId> not_counted;        ///< lost, or not heard yet
+};
+
 /// All that a running robot shows beyond its store. A value: whoever has it may hand it to any thread.
 struct LiveStatus {
   AgentId self;
@@ -92,6 +100,7 @@ struct LiveStatus {
   std::vector<RobotNow> robots;  ///< the whole fleet, by name
   std::vector<SensorNow> sensors;
   RadioNow radio;
+  FleetMaps maps;
 };
 
 /// The status as JSON, in an object "live". `operated`: whether viewers may give orders.

@@ -69,6 +69,7 @@ void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const L
   for (const agent::Agent* other : others)
     fleet.problems[other->config().id] = problems_of(*other, bus_.now());
   status.robots = robot_states(fleet);
+  status.maps = progress_.add(status.robots, status.self, status.lost_after_s, bus_.now());
   status.sensors = sensors_.add(agent_.perception(), bus_.now());
   status.radio = radio(heard);
   server_.publish(std::make_shared<const monitor::LiveStatus>(std::move(status)));

@@ -9,6 +9,7 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/monitor/server.hpp"
 #include "health/sensor_rates.hpp"
+#include "map_progress.hpp"
 #include "robot/link_log.hpp"
 #include "robot/radio_rates.hpp"
 
@@ -42,6 +43,7 @@ class LivePublisher {
   std::string who_may_join_;
   RadioRates rates_;
   SensorRates sensors_;
+  MapProgress progress_;
 };
 
 }  // namespace fleetmap::apps

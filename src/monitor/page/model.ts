@@ -201,12 +201,20 @@ export interface Radio {
   seconds_to_equal_map: number | null;
 }
 
+export interface FleetMaps {
+  last: string | null; // will lack submaps for the longest
+  missing_submaps: number; // of that robot
+  seconds_to_equal: number | null;
+  not_counted: string[]; // lost, or not heard yet
+}
+
 export interface Live {
   self: string;
   lost_after_s: number;
   robots: RobotNow[];
   sensors: Sensor[];
   radio: Radio;
+  maps: FleetMaps;
   operated: boolean;
 }
 

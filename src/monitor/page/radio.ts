@@ -1,5 +1,5 @@
 import uPlot from 'uplot';
-import {ago, bytes, linkName, type Live, type Radio} from './model';
+import {ago, bytes, linkName, type FleetMaps, type Live, type Radio} from './model';
 import {el} from './dom';
 import {patch, setText} from './patch';
 
@@ -10,6 +10,7 @@ export class RadioPanel {
   private headline = el('p', {class: 'headline', 'data-of': 'budget'});
   private access = el('p', {class: 'facts', 'data-of': 'access'});
   private maps = el('p', {class: 'facts', 'data-of': 'maps'});
+  private fleetMaps = el('p', {class: 'facts', 'data-of': 'fleet-maps'});
   private chart = el('div', {class: 'chart'});
   private tables = el('div');
   private plot?: uPlot;
@@ -21,6 +22,7 @@ export class RadioPanel {
       this.headline,
       this.access,
       this.maps,
+      this.fleetMaps,
       el('h2', {}, 'Bytes per second on the radio'),
       this.chart,
       this.tables,
@@ -42,6 +44,7 @@ export class RadioPanel {
     );
     setText(this.access, accessText(live));
     setText(this.maps, mapsText(radio));
+    setText(this.fleetMaps, fleetMapsText(live.maps));
     patch(this.tables, [...this.kinds(radio), ...this.peers(radio), ...this.queues(radio)]);
     if (!this.root.hidden) this.draw();
   }
@@ -154,6 +157,14 @@ function mapsText(radio: Radio): string {
   const left = radio.seconds_to_equal_map;
   const when = left === null ? 'none arrive now' : `at the present rate they are here in ${ago(left)}`;
   return `${radio.missing_submaps} submaps are missing here (${bytes(radio.missing_bytes)}); ${when}.`;
+}
+
+function fleetMapsText(maps: FleetMaps): string {
+  const without = maps.not_counted.length > 0 ? ` Without ${maps.not_counted.join(', ')}, lost or not heard yet.` : '';
+  if (maps.last === null) return `All robots hold equally many submaps.${without}`;
+  const left = maps.seconds_to_equal;
+  const when = left === null ? 'none arrive there now' : `at the present rates all maps are equal in ${ago(left)}`;
+  return `${maps.last} will be the last: it lacks ${maps.missing_submaps} submaps; ${when}.${without}`;
 }
 
 function table(title: string, columns: string[], rows: string[][], name: string): HTMLElement[] {

@@ -88,6 +88,8 @@ TEST_F(LivePublisher, ShowsTheOtherRobotOnceItIsHeardAndPassesOnOrders) {
   EXPECT_GT(now["radio"]["share"].get<double>(), 0.0);
   EXPECT_EQ(now["radio"]["missing_submaps"], 0);
   EXPECT_EQ(now["radio"]["who_may_join"], "anyone");
+  EXPECT_EQ(now["maps"]["seconds_to_equal"], 0.0) << "both hold nothing";
+  EXPECT_TRUE(now["maps"]["not_counted"].empty());
   // Robots in contact use the Wi-Fi.
   const auto is_heard = [&] {
     const json radio = live(port)["radio"];

@@ -121,5 +121,6 @@ export const live = (robots, more = {}) => ({
     missing_bytes: 0,
     seconds_to_equal_map: null,
   },
+  maps: {last: null, missing_submaps: 0, seconds_to_equal: 0, not_counted: []},
   ...more,
 });
