@@ -8,6 +8,7 @@ export interface Picture {
   total: number;
   loading: boolean;
   moving: boolean; // the view; what people read may wait until it stands still
+  coarse: boolean; // it moves, and frames take long: marks are left out until it stands still
   metresPerPixel: number;
   planar: boolean;
   heights: [number, number];

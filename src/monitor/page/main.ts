@@ -213,8 +213,11 @@ byId('time').oninput = () => {
 
 if (map) map.onPicture = showPicture;
 function showPicture(picture: Picture): void {
-  measure?.draw();
-  marks?.draw();
+  byId('map').classList.toggle('coarse', picture.coarse);
+  if (!picture.coarse) {
+    measure?.draw();
+    marks?.draw();
+  }
   canvas.dataset.drawn = String(picture.drawn);
   if (picture.moving) return;
   byId('drawn').textContent =

@@ -68,7 +68,7 @@ export class FleetMap {
     this.submaps = new Submaps(this.style, () => this.drawArrived());
     this.points = onCpu ? new CpuPoints(this.submaps.pool, this.style) : new GlPoints(this.submaps.pool, this.renderer);
     const full = {shaded: true, detailed: true, ratio: Math.min(2, window.devicePixelRatio), share: 1};
-    this.pace = new Pace(full, drawnShare());
+    this.pace = new Pace(full, drawnShare(), onCpu);
     this.lines = new Lines(this.marks);
     this.eye = new MapCamera(canvas, () => this.move());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
@@ -249,6 +249,7 @@ export class FleetMap {
       total,
       loading: this.submaps.loading,
       moving,
+      coarse: !effort.detailed,
       metresPerPixel: this.eye.metresPerPixel(),
       planar,
       heights: [this.style.low.value, this.style.high.value],

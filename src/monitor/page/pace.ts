@@ -19,22 +19,28 @@ const kMaxRest_ms = 1000;
 
 /**
  * Chooses the effort of a picture: all of it while the view stands still. While it moves and frames take longer than
- * 33 ms, first the shading is left out, then the finer pixels and the nodes, then points; each submap then shows its
- * coarser ones. If drawing costs little, as with a graphics card, nothing changes. Pictures of what
+ * 33 ms, first the shading is left out, then the finer pixels, the nodes and the page's marks on the map, then points;
+ * each submap then shows its coarser ones. If drawing costs little, as with a graphics card, nothing changes. Pictures of what
  * arrives while the view stands still leave three quarters of the time to the rest of the page.
  */
 export class Pace {
-  private level = 0; // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
+  private level: number; // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
   private share = 1;
   private fast = 0;
   private last?: number;
   private restsUntil = 0; // ms
 
-  /** `minShare`: share of the points that is drawn however long a frame takes. */
+  /**
+   * `minShare`: share of the points that is drawn however long a frame takes. `slow`: frames will take long, so the first
+   * ones that move are drawn with less effort, too.
+   */
   constructor(
     private full: Effort,
     private minShare = kMinShare,
-  ) {}
+    slow = false,
+  ) {
+    this.level = slow ? kLevels - 1 : 0;
+  }
 
   /** The effort of the frame at `now`, ms. */
   effort(now: number, moving: boolean): Effort {

@@ -79,6 +79,20 @@ for (const Camera of [OrthographicCamera, PerspectiveCamera]) {
   );
 }
 
+// With few pixels a point is the one that it lies in, also beside the last row and column.
+{
+  const {style, picture} = mapOf({
+    points: [
+      [2.05, 1.05, 0],
+      [3.99, -3.99, 0],
+      [4.01, 0, 0],
+      [0, 4.01, 0],
+    ],
+  });
+  style.ratio.value = 0.6; // 1.02 pixels
+  assert.deepEqual(covered(picture()), [kSize * 0 + 63, kSize * 40 + 48]);
+}
+
 // The nearer of two points at one pixel is drawn, whichever comes first; depths are WebGL's.
 for (const order of [0, 1]) {
   const both = [

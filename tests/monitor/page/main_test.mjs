@@ -172,6 +172,7 @@ const picture = (more) =>
     total: 1000,
     loading: true,
     moving: false,
+    coarse: false,
     metresPerPixel: 0.1,
     planar: false,
     heights: [1, 5],
@@ -197,7 +198,18 @@ byId('layer-robots').onchange({target: {checked: true}});
 picture({drawn: 300, moving: true, loading: false, planar: true});
 assert.equal(canvas.dataset.drawn, '300');
 assert.match(textOf(byId('drawn')), /200 of/);
+
+// On a slow machine robots' marks and measures are hidden while the map moves, and are drawn when it stands still.
+const hidden = () => byId('map').classList.contains('coarse');
+let projected = 0;
+map.project = () => void ++projected;
+assert.ok(!hidden());
+picture({moving: true, coarse: true});
+assert.ok(hidden());
+assert.equal(projected, 0);
 picture({drawn: 300, loading: false, planar: true});
+assert.ok(!hidden());
+assert.ok(projected > 0);
 assert.match(textOf(byId('drawn')), /300 of 1[ ,.]?000 points drawn$/);
 assert.match(canvas.getAttribute('aria-label'), /plan view/);
 

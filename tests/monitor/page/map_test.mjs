@@ -157,12 +157,12 @@ try {
   const still = renderer.rendered.splice(0);
   assert.equal(still.length, 2, 'points, then lines and nodes');
   assert.ok(still[1].includes('Mesh') && still[1].includes('Points'));
-  for (let k = 0; k < 3; ++k) {
+  for (let k = 0; k < 2; ++k) {
     map.eye.pan(0.1, 0);
     renderer.rendered.length = 0;
     frames(60);
   }
-  assert.ok(pictures.at(-1).moving);
+  assert.ok(pictures.at(-1).moving && pictures.at(-1).coarse);
   assert.equal(pictures.at(-1).drawn, 4 * 500);
   assert.equal(renderer.rendered.length, 1);
   assert.ok(renderer.ratio < 1);
@@ -172,7 +172,7 @@ try {
   assert.equal(frames(500), 1);
   assert.equal(renderer.rendered.length, 2);
   assert.equal(renderer.ratio, 1);
-  assert.ok(!pictures.at(-1).moving);
+  assert.ok(!pictures.at(-1).moving && !pictures.at(-1).coarse);
   assert.equal(frames(5000), 0);
 
   // A correction moves nodes and asks for no point again.

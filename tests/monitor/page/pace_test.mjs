@@ -25,6 +25,12 @@ assert.ok(!efforts[2].shaded && !efforts[2].detailed && efforts[2].ratio < 1 && 
 assert.ok(efforts.at(-1).share < 1 && efforts.at(-1).share >= 0.25, 'a picture of too few points shows nothing');
 assert.deepEqual(slow.effort((now += 200), false), full);
 
+// Where WebGL is known to be slow the first frame that moves has little effort; a still view and fast frames have all.
+const software = new Pace(full, 0.25, true);
+assert.deepEqual(software.effort((now += 100), false), full);
+assert.ok(!frames(software, 1, 16)[0].detailed);
+assert.deepEqual(frames(software, 40, 8).at(-1), full);
+
 // A page that is to draw all points does so, however slow it is.
 globalThis.location = {search: '?share=all'};
 assert.ok(frames(new Pace(full, drawnShare()), 50, 200).every(({share}) => share === 1));
