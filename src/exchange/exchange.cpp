@@ -78,13 +78,13 @@ void Exchange::send_report(MissionReport report) {
 void Exchange::set_drives(bool drives) { state_->drives = drives; }
 
 void Exchange::on_local_order(HoldOrder order, Stamp now) {
-  if (order.stamp == Stamp{}) order.stamp = later_than(state_->holds.all(), now);
+  if (order.stamp == Stamp{}) order.stamp = orders::later_than(state_->holds.all(), now);
   const auto before = state_->holds.in_force();
   if (state_->holds.give(order)) state_->note_orders(before);
 }
 
 void Exchange::on_local_order(RowOrder order, Stamp now) {
-  if (order.stamp == Stamp{}) order.stamp = later_than(row_orders(), now);
+  if (order.stamp == Stamp{}) order.stamp = orders::later_than(row_orders(), now);
   if (state_->holds.give(order)) state_->note_row_orders();
 }
 

@@ -35,6 +35,7 @@ using messages::Reach;
 using messages::SubmapChunk;
 using messages::SubmapDigest;
 using messages::SubmapRequest;
+using orders::HoldOrders;
 
 /// The parts of an Exchange, the messages that each of them handles, and their order in a tick.
 struct Exchange::State {

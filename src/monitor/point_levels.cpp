@@ -63,7 +63,7 @@ std::vector<PlacedPoint> along_curve(const cloud::PointCloud& cloud, const Box& 
     if (!p.allFinite()) continue;
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const float steps = std::fmin(std::fmax((p[axis] - box.low[axis]) * per_metre, 0.0f), kMaxSteps);
+      const float steps = std::clamp((p[axis] - box.low[axis]) * per_metre, 0.0f, kMaxSteps);
       code |= spread_bits(static_cast<std::uint32_t>(steps)) << axis;
     }
     placed.push_back({code, k});
@@ -80,6 +80,23 @@ std::size_t level_of(std::uint64_t code, std::uint64_t before) {
   return kLevels - 1 - std::min(highest / 3, kLevels - 1);
 }
 
+/// The first `points` of coarse_to_fine(), and the rest of the level in which they end.
+std::vector<std::uint32_t> first_of_order(const std::vector<PlacedPoint>& placed, std::size_t points) {
+  std::array<std::vector<std::uint32_t>, kLevels + 1> levels;
+  for (std::size_t k = 0; k < placed.size(); ++k)
+    levels[k == 0 ? 0 : level_of(placed[k].code, placed[k - 1].code)].push_back(placed[k].index);
+  std::vector<std::uint32_t> order;
+  order.reserve(placed.size());
+  // Mixed within a level, so that the part of one that a prefix holds is spread over the whole, too.
+  std::minstd_rand random(1);
+  for (std::vector<std::uint32_t>& level : levels) {
+    if (order.size() >= points) break;
+    for (std::size_t k = level.size(); k > 1; --k) std::swap(level[k - 1], level[random() % k]);
+    order.insert(order.end(), level.begin(), level.end());
+  }
+  return order;
+}
+
 /// As kPointHeaderBytes describes it; without gaps.
 struct PointHeader {
   std::array<char, 4> magic{'F', 'M', 'P', '1'};
@@ -93,20 +110,7 @@ static_assert(sizeof(PointHeader) == kPointHeaderBytes);
 
 std::vector<std::uint32_t> coarse_to_fine(const cloud::PointCloud& cloud) {
   const Box box = box_of(cloud);
-  if (box.empty()) return {};
-  const std::vector<PlacedPoint> placed = along_curve(cloud, box);
-  std::array<std::vector<std::uint32_t>, kLevels + 1> levels;
-  for (std::size_t k = 0; k < placed.size(); ++k)
-    levels[k == 0 ? 0 : level_of(placed[k].code, placed[k - 1].code)].push_back(placed[k].index);
-  std::vector<std::uint32_t> order;
-  order.reserve(placed.size());
-  // Mixed within a level, so that the part of one that a prefix holds is spread_bits over the whole, too.
-  std::minstd_rand random(1);
-  for (std::vector<std::uint32_t>& level : levels) {
-    for (std::size_t k = level.size(); k > 1; --k) std::swap(level[k - 1], level[random() % k]);
-    order.insert(order.end(), level.begin(), level.end());
-  }
-  return order;
+  return box.empty() ? std::vector<std::uint32_t>{} : first_of_order(along_curve(cloud, box), cloud.size());
 }
 
 QuantisedCloud quantised(const cloud::PointCloud& cloud) { return quantised_prefix(cloud, cloud.size()); }
@@ -121,8 +125,9 @@ QuantisedCloud quantised_prefix(const cloud::PointCloud& cloud, std::size_t poin
   for (const float intensity : cloud.intensities) {
     if (std::isfinite(intensity)) strongest = std::max(strongest, intensity);
   }
-  std::vector<std::uint32_t> order = coarse_to_fine(cloud);
-  result.whole = order.size();
+  const std::vector<PlacedPoint> placed = along_curve(cloud, box);
+  result.whole = placed.size();
+  std::vector<std::uint32_t> order = first_of_order(placed, points);
   order.resize(std::min(order.size(), points));
   result.values.reserve(4 * order.size());
   for (const std::uint32_t k : order) {

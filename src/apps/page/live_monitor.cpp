@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kMinPause{2000};
 constexpr int kPauseFactor = 20;  // of the time that a reading takes
+constexpr unsigned kMaxPreviewThreads = 4;
 
 /// Sizes and times of the files that a view is made of. SQLite writes to the log beside the store first.
 std::string fingerprint(const std::vector<fs::path>& stores) {
@@ -70,7 +71,7 @@ Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerCon
     return self->load(id, hash);
   };
   monitor::ServerConfig with_previews = config;
-  with_previews.preview_threads = std::clamp(std::thread::hardware_concurrency(), 2u, 3u) - 1;
+  with_previews.preview_threads = std::clamp(std::thread::hardware_concurrency(), 1u, kMaxPreviewThreads);
   auto server = monitor::Server::start(with_previews, load);
   if (!server) return tl::unexpected(server.error());
   live->server_ = std::move(*server);
