@@ -41,7 +41,7 @@ class Attacker {
   /// The first chunk of the largest submap whose node was overheard; none: no submap has several.
   std::optional<messages::Message> forged_chunk();
   messages::Message with_false_signature(messages::Message item);
-  /// That of an item which was overheard, or none.
+  /// The signature of an overheard item, or none.
   std::optional<Signature> overheard_signature();
   std::optional<messages::Message> damaged();
   Injected to_anyone(messages::Message message, messages::Reach reach);

@@ -118,7 +118,7 @@ class CandidateSet {
   /// Candidates with the same agent that are nearer to `pair` than the spacing, `max` of them; with
   /// `closed_only` of those that are done or abandoned.
   std::vector<NodePair> too_near(const NodePair& pair, std::size_t max, bool closed_only = false) const;
-  /// Puts abandoned ones that have attempts left back into all().
+  /// Puts abandoned ones that have attempts left back into open().
   void reopen();
   double spacing(const ScheduledCandidate& other, const AgentId& peer) const;
   /// Drops a rival that is worse than `candidate`. Returns since when a candidate of this place has waited.

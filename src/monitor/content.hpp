@@ -82,7 +82,7 @@ class Content {
   void end_preview(const std::string& hash, const Cloud& preview);
   /// Keeps previews that were made before, so that those of submaps that are shown later need no work.
   void keep(const Previews& previews);
-  /// Those of the submaps that are shown, as far as they are kept.
+  /// The previews of the submaps that are shown, as far as they are kept.
   Previews previews();
   /// Number of them that were made since keep() or previews().
   std::size_t new_previews() const { return new_previews_; }

@@ -73,19 +73,19 @@ std::vector<BagTopic> sensors_of_type(const std::vector<BagTopic>& topics, const
 Role role_of_points(const Role& clouds, const std::vector<BagTopic>& topics, const std::string& wanted,
                     const std::string& bag) {
   const bool has_clouds = !sensors_of_type(topics, clouds.type).empty();
-  const Role* chosen = has_clouds ? &clouds : nullptr;
+  const Role* selected = has_clouds ? &clouds : nullptr;
   for (const Role& role : kInsteadOfClouds) {
     const std::vector<BagTopic> candidates = of_type(topics, role.type);
     if (candidates.empty()) continue;
     if (std::ranges::find(candidates, wanted, &BagTopic::name) != candidates.end()) return role;
-    if (chosen == nullptr) {
-      chosen = &role;
+    if (selected == nullptr) {
+      selected = &role;
     } else if (wanted.empty()) {
       spdlog::info("{}: holds points in several forms; the {} are taken, not {}", bag,
-                   chosen == &clouds ? "clouds" : chosen->type, list(candidates));
+                   selected == &clouds ? "clouds" : selected->type, list(candidates));
     }
   }
-  return chosen != nullptr && wanted.empty() ? *chosen : clouds;
+  return selected != nullptr && wanted.empty() ? *selected : clouds;
 }
 
 Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics, const std::string& wanted,
@@ -113,19 +113,19 @@ Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics
 
 Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
                                                   const std::string& bag, bool scans_needed) {
-  std::map<std::string, Kind> chosen;
+  std::map<std::string, Kind> selected;
   for (Role role : kRoles) {
     if (role.kind == Kind::kScan) role = role_of_points(role, topics, wanted.points, bag);
     role.needed = role.needed && scans_needed;
     if (wanted.*role.wanted == kNone && !role.needed) continue;
     const auto name = select(role, topics, wanted.*role.wanted, bag);
     if (!name) return tl::unexpected(name.error());
-    if (!name->empty()) chosen.emplace(*name, role.kind);
+    if (!name->empty()) selected.emplace(*name, role.kind);
   }
   for (const BagTopic& topic : of_type(topics, kTransforms)) {
-    if (topic.name.ends_with("/tf_static")) chosen.emplace(topic.name, Kind::kTransforms);
+    if (topic.name.ends_with("/tf_static")) selected.emplace(topic.name, Kind::kTransforms);
   }
-  return chosen;
+  return selected;
 }
 
 }  // namespace fleetmap::recording

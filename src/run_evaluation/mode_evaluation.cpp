@@ -29,13 +29,13 @@ graph::Placement placed(const StoredFleet& held, graph::PlacementMethod method,
 }
 
 std::vector<NodeId> some_of(const eval::TruePoses& nodes) {
-  std::vector<NodeId> chosen;
+  std::vector<NodeId> sampled;
   const std::size_t step = nodes.size() / kCovariances + 1;
   std::size_t k = 0;
   for (const auto& [id, T] : nodes) {
-    if (k++ % step == 0) chosen.push_back(id);
+    if (k++ % step == 0) sampled.push_back(id);
   }
-  return chosen;
+  return sampled;
 }
 
 bool same_places(const graph::Placement& a, const graph::Placement& b) {

@@ -26,7 +26,7 @@ class SensorMounts {
   };
 
   explicit SensorMounts(const PerceptionConfig& config);
-  /// Those of a recording, before any of its samples is used.
+  /// The mounts of a recording, before any of its samples is used.
   static SensorMounts of_recording(const sensor::SensorFrames& frames, const PerceptionConfig& config);
 
   void add(const std::vector<sensor::FrameTransform>& transforms);
@@ -44,7 +44,7 @@ class SensorMounts {
   bool by_frames(sensor::Source source) const { return of(source).by_frames; }
   /// Its pose and what states it, in a line.
   std::string summary(sensor::Source source) const;
-  /// Those of all that are decided.
+  /// The summaries of all decided mounts.
   std::vector<std::string> summaries() const;
   /// Contradictions and missing mounts since the last call, each with its remedy.
   std::vector<std::string> take_warnings();

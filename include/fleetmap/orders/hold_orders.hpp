@@ -39,7 +39,7 @@ class HoldOrders {
 
   HoldOrders(const AgentId& self, const std::set<AgentId>& fleet) : self_(self), fleet_(fleet) {}
 
-  /// An operator's order as it was given. It is completed by the orders before it: one to stand keeps a call
+  /// An operator's order as it was given. It is completed by the orders before it: one to hold keeps a call
   /// home in force, and one to drive on lets a robot that was held on its way home go on with that. A further
   /// one to drive on ends the call, but not within kSameResume of the last: operators repeat an order with a
   /// later stamp when a robot does not confirm it. True if it replaced a register. Orders for robots that are

@@ -16,7 +16,7 @@ struct OperatorFleet {
   bus::DdsBusConfig dds;  ///< of the operator's own participant on the long range
 };
 
-/// Those of a robot's or a fleet's file.
+/// The robots and the DDS settings of a robot's or a fleet's file.
 Result<OperatorFleet> operator_fleet(const std::string& file, const std::vector<config::Override>& overrides);
 
 /// The robot of that name; fails if there is none. `file`: as the error names it.

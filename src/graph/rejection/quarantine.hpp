@@ -21,7 +21,7 @@ std::map<AgentId, std::size_t> outlier_sets(const ReducedGraph& graph, std::span
 /// Agents with four outlier sets or more, and at least twice as many as accepted alignments. None of the
 /// alignments that they computed is used. `accepted` are the numbers of accepted alignments by agent.
 ///
-/// No publication that we know excludes agents by their record; bench_rejection measures the effect.
+/// No publication that we know excludes agents by their record.
 std::set<AgentId> to_quarantine(const std::map<AgentId, std::size_t>& outlier_sets,
                                 const std::map<AgentId, std::size_t>& accepted);
 

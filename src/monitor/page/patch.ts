@@ -25,7 +25,7 @@ export function patch(parent: Element, next: readonly Node[]): void {
   let at = parent.firstChild;
   for (const one of next) {
     while (at && keyOf(at) && !wanted.has(at)) at = removed(at);
-    const known = parent === one.parentNode ? one : keyOf(one) ? there.get(keyOf(one)) : likeness(at, one, wanted);
+    const known = parent === one.parentNode ? one : keyOf(one) ? there.get(keyOf(one)) : counterpart(at, one, wanted);
     if (!known || (known !== one && !isAlike(known, one))) {
       parent.insertBefore(one, at);
       continue;
@@ -46,7 +46,7 @@ function removed(node: ChildNode): ChildNode | null {
 const isAlike = (a: Node, b: Node) => a.nodeName === b.nodeName;
 
 /** The child in the place of `one`, if it may become that. */
-function likeness(at: ChildNode | null, one: Node, wanted: ReadonlySet<Node>): ChildNode | undefined {
+function counterpart(at: ChildNode | null, one: Node, wanted: ReadonlySet<Node>): ChildNode | undefined {
   return at && !keyOf(at) && !wanted.has(at) && isAlike(at, one) ? at : undefined;
 }
 

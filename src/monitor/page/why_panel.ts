@@ -10,7 +10,7 @@ const kRecent_s = 60;
 export class WhyPanel {
   private state?: State;
   private pair?: [string, string];
-  private hasChosen = false; // the reader, a pair or none
+  private hasPair = false; // the reader, a pair or none
   private verdict: string = 'all';
   private robot: string = 'all';
   private recent = false; // those of the last minute alone, the newest first
@@ -23,7 +23,7 @@ export class WhyPanel {
   ) {}
 
   show(state: State): void {
-    const apart = this.hasChosen || this.pair ? undefined : state.pairs.find((pair) => !pair.joined);
+    const apart = this.hasPair || this.pair ? undefined : state.pairs.find((pair) => !pair.joined);
     if (apart) this.pair = [apart.a, apart.b];
     this.state = state;
     this.render();
@@ -99,7 +99,7 @@ export class WhyPanel {
     );
     button.onclick = () => {
       this.pair = this.isPair(pair) ? undefined : [pair.a, pair.b];
-      this.hasChosen = true;
+      this.hasPair = true;
       this.rows = kRows;
       this.render();
     };

@@ -216,9 +216,9 @@ class Planner {
     to.stop = plan_.stops.size();
     const RowVisit* visit = after < visits_[robot].size() ? &visits_[robot][after] : nullptr;
     drive[piece] = piece_from(fleet_[robot], {place, last_yaw_}, after, visit, meeting_[robot]);
-    const Eigen::Vector2d stands = to.path.points.back();
+    const Eigen::Vector2d position = to.path.points.back();
     drive.insert(drive.begin() + static_cast<std::ptrdiff_t>(piece), std::move(to));
-    return {robot, after, stands, 0.0};
+    return {robot, after, position, 0.0};
   }
 
   /// True if the gain remains when robots are late, so that it does not depend on a chance meeting.
