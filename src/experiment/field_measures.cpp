@@ -11,8 +11,8 @@
 #include <set>
 #include <vector>
 
-#include "fleetmap/eval/csv_line.hpp"
 #include "fleetmap/experiment/run_case.hpp"
+#include "fleetmap/output/csv_line.hpp"
 #include "fleetmap/output/robot_folders.hpp"
 
 namespace fleetmap::experiment {
@@ -27,14 +27,14 @@ Result<std::vector<Row>> read_csv(const fs::path& file, std::initializer_list<co
   std::ifstream in(file);
   std::string line;
   if (!in || !std::getline(in, line)) return failure(file.string() + ": cannot be read");
-  const std::vector<std::string> columns = eval::cells_of(line);
+  const std::vector<std::string> columns = output::csv_cells(line);
   for (const char* column : needed) {
     if (std::ranges::find(columns, column) == columns.end())
       return failure(file.string() + ": its first line names no column '" + column + "'");
   }
   std::vector<Row> rows;
   while (std::getline(in, line)) {
-    const std::vector<std::string> cells = eval::cells_of(line);
+    const std::vector<std::string> cells = output::csv_cells(line);
     if (cells.size() != columns.size()) continue;
     Row& row = rows.emplace_back();
     for (std::size_t k = 0; k < columns.size(); ++k) row[columns[k]] = cells[k];

@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "fleetmap/output/csv_line.hpp"
 #include "output/site.hpp"
 #include "store/items.hpp"
 #include "support/temporary_folder.hpp"
@@ -21,25 +22,14 @@ using ::testing::SizeIs;
 /// One line of a table, by the names of its columns.
 using Row = std::map<std::string, std::string>;
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  }
-  return cells;
-}
-
 std::vector<Row> rows_of(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string line;
   std::getline(in, line);
-  const std::vector<std::string> names = cells_of(line);
+  const std::vector<std::string> names = csv_cells(line);
   std::vector<Row> rows;
   while (std::getline(in, line)) {
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = csv_cells(line);
     EXPECT_EQ(cells.size(), names.size()) << line;
     for (std::size_t k = 0; k < std::min(cells.size(), names.size()); ++k) {
       if (k == 0) rows.emplace_back();
