@@ -2,7 +2,8 @@
 # Installs what is missing, builds, and lets three robots map a solar farm of 200 m x 200 m in the digital twin: the twin
 # and each robot's agent are processes of their own that talk over DDS, in real time, for about four minutes. The robots
 # plan on a drawing of the site, not on the twin's world. Ends with the plan, the merged map, the report and pictures of the
-# map in one folder, and with the command that shows them in a browser; exit code 1 if rows were not driven, or the robots' maps are not of the same nodes and submaps.
+# map in one folder, and with the command that shows them in a browser; exit code 1 if rows were not driven, or the
+# robots' maps are not of the same nodes and submaps.
 #   deploy/demo.sh [OUT]     OUT: folder of the results, default out/demo
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/demo}")

@@ -102,19 +102,20 @@ std::string to_geojson(const Changes& changes, const GeoPoint& origin) {
   return nlohmann::json{{"type", "FeatureCollection"}, {"features", features}}.dump(1) + '\n';
 }
 
-Status write_coloured(const std::filesystem::path& file, const Changes& changes) {
+Status write_coloured(const std::filesystem::path& file, const Changes& changes,
+                      const std::vector<std::string>& comments) {
   Bytes bytes;
   append(bytes, changes.same, kSame);
   append(bytes, changes.unobserved, kUnobserved);
   for (const Change& change : changes.changes)
     append(bytes, change.points, change.kind == Kind::appeared ? kNew : kGone);
-  const std::string header =
+  std::string header =
       "ply\nformat binary_little_endian 1.0\n"
-      "comment grey: there before; blue: not seen on the other day; red: disappeared; green: appeared\n"
-      "element vertex " +
-      std::to_string(bytes.size() / kPointBytes) +
-      "\nproperty float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
+      "comment grey: there before; blue: not seen on the other day; red: disappeared; green: appeared\n";
+  for (const std::string& comment : comments) header += "comment " + comment + '\n';
+  header += "element vertex " + std::to_string(bytes.size() / kPointBytes) +
+            "\nproperty float x\nproperty float y\nproperty float z\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
   auto out = WholeFile::create(file);
   if (!out) return tl::unexpected(out.error());
   if (const Status written = out->append(header); !written) return written;

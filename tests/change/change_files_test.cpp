@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "fleetmap/cloud/file_io.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::change {
@@ -62,11 +63,12 @@ TEST(ChangeFiles, TheTableHasThePlaceOnEarthWhereItIsKnown) {
 TEST(ChangeFiles, ThePlyHoldsAllCells) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "changes.ply";
-  ASSERT_TRUE(write_coloured(file, one_table_gone()));
+  ASSERT_TRUE(write_coloured(file, one_table_gone(), {"east, north, up"}));
   const auto cloud = cloud::read_cloud(file);
   ASSERT_TRUE(cloud) << cloud.error().message;
   ASSERT_EQ(cloud->size(), 3u);
   EXPECT_EQ(cloud->points[2], Eigen::Vector3f(101.0f, 200.0f, 1.0f));
+  EXPECT_THAT(testing::file_text(file), HasSubstr("\ncomment east, north, up\n"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fleetmap/change/find_changes.hpp"
 #include "fleetmap/core/result.hpp"
@@ -17,7 +18,9 @@ std::string to_table(const Changes& changes, const std::optional<GeoPoint>& orig
 std::string to_geojson(const Changes& changes, const GeoPoint& origin);
 
 /// Binary PLY of the cells in the map's frame, coloured: grey was there before, blue was not seen on the
-/// other day, red disappeared, green appeared.
-Status write_coloured(const std::filesystem::path& file, const Changes& changes);
+/// other day, red disappeared, green appeared. `comments` are lines for the header, such as what the
+/// coordinates are.
+Status write_coloured(const std::filesystem::path& file, const Changes& changes,
+                      const std::vector<std::string>& comments);
 
 }  // namespace fleetmap::change

@@ -1,20 +1,34 @@
 #include "day_comparison.hpp"
 
 #include <string>
+#include <vector>
 
 #include "day_changes.hpp"
 #include "fleetmap/change/change_files.hpp"
 #include "fleetmap/core/whole_file.hpp"
+#include "fleetmap/output/map_crs.hpp"
 
 namespace fleetmap::apps {
+namespace {
+
+/// Says what the coordinates of a file in the map's own frame are, as maps' files do.
+std::vector<std::string> frame_comments(const std::optional<GeoPoint>& origin) {
+  const output::MapPlace place{origin.value_or(GeoPoint{}), origin.has_value()};
+  const auto crs = output::MapCrs::of({output::CrsRequest::Kind::enu, {}}, place, std::nullopt);
+  if (!crs) return {};
+  return {crs->text(), "CRS: " + crs->wkt()};
+}
+
+}  // namespace
 
 CommandResult<ExitCode> compare_days(const DiffOptions& options, std::ostream& out) {
   const auto compared = changes_between(options.before, options.after);
   if (!compared) return exit_with(kFailed, compared.error());
   print_changes(out, *compared);
   if (!options.ply.empty()) {
-    if (const Status written = change::write_coloured(options.ply, compared->changes); !written)
-      return exit_with(kFailed, written.error());
+    const Status written =
+        change::write_coloured(options.ply, compared->changes, frame_comments(compared->origin));
+    if (!written) return exit_with(kFailed, written.error());
   }
   if (options.geojson.empty()) return kDone;
   if (!compared->origin) {

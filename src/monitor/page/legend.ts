@@ -32,8 +32,8 @@ export function rampEnds({heights, range}: Picture, colour: ColourMode): string[
   return ['weak', 'strong'];
 }
 
-/** The lines between robots on the map. */
-export function linkKeys(): HTMLElement[] {
+/** The lines between robots on the map, as the robot `self` that shows the page hears the others. */
+export function linkKeys(self: string): HTMLElement[] {
   const key = (kind: string, words: string) => el('span', {}, el('i', {class: `key link-${kind}`}), words);
-  return [key('good', 'heard'), key('poor', 'loses a fifth, or late'), key('silent', 'lost')];
+  return [key('good', `heard by ${self}`), key('poor', 'loses a fifth, or late'), key('silent', 'lost')];
 }

@@ -25,7 +25,7 @@ const kCrossReach = 18; // pixels
 const canvas = byId<HTMLCanvasElement>('canvas');
 
 let state: State | undefined;
-let isLive = false; // a running robot sends its status
+let shownBy: string | undefined; // the running robot that sends its status
 let map: FleetMap | undefined;
 try {
   map = new FleetMap(canvas);
@@ -72,12 +72,12 @@ follow({
     now.show(live, state);
     fleet.showNow(live);
     marks?.showLive(live);
-    isLive = true;
+    shownBy = live.self;
     radio.show(live);
   },
   onConnection(trouble) {
     setText(byId('connection'), trouble);
-    if (trouble && !state && !isLive) setText(byId('summary'), 'Nothing came yet.');
+    if (trouble && !state && !shownBy) setText(byId('summary'), 'Nothing came yet.');
   },
 });
 
@@ -241,7 +241,7 @@ let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = [colour, isLive, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
+  const key = [colour, shownBy, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
@@ -253,7 +253,7 @@ function showLegend(picture: Picture): void {
     ),
   );
   const ramp = el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]);
-  byId('legend').replaceChildren(...robots, ...(isLive ? linkKeys() : []), ...(colour === 'robot' ? [] : [ramp]));
+  byId('legend').replaceChildren(...robots, ...(shownBy ? linkKeys(shownBy) : []), ...(colour === 'robot' ? [] : [ramp]));
 }
 
 // Pointer and keys.

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "apps/driven_days.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -24,7 +25,7 @@ TEST(DayComparison, PrintsAndWritesTheChanges) {
   EXPECT_EQ(*compared, kDone);
   EXPECT_THAT(out.str(), HasSubstr("\n0 changes: "));
   EXPECT_TRUE(std::filesystem::exists(options.geojson));
-  EXPECT_TRUE(std::filesystem::exists(options.ply));
+  EXPECT_THAT(testing::file_text(options.ply), HasSubstr("comment CRS: "));
 }
 
 TEST(DayComparison, ADayThatIsMissingFails) {

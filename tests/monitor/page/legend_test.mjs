@@ -23,4 +23,4 @@ assert.deepEqual(rampEnds(picture, 'age'), ['0:01', '2:05']);
 assert.deepEqual(rampEnds(picture, 'sigma'), ['0.50 m', '125.0 m']);
 assert.deepEqual(rampEnds(picture, 'intensity'), ['weak', 'strong']);
 
-assert.deepEqual(linkKeys().map(textOf), ['heard', 'loses a fifth, or late', 'lost']);
+assert.deepEqual(linkKeys('r1').map(textOf), ['heard by r1', 'loses a fifth, or late', 'lost']);
