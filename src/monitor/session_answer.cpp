@@ -1,4 +1,4 @@
-#include "fleetmap/monitor/session_answer.hpp"
+#include "session_answer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 using Component = std::vector<graph::FrameId>;
 
-/// What the nodes of a frame are.
+/// Number and beginning of the nodes of a frame.
 struct FrameNodes {
   std::size_t count = 0;
   Stamp first = Stamp::max();

@@ -11,8 +11,8 @@
 
 #include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/monitor/pair_answer.hpp"
-#include "fleetmap/monitor/session_answer.hpp"
 #include "rounded_json.hpp"
+#include "session_answer.hpp"
 
 namespace fleetmap::monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "fleetmap/monitor/session_answer.hpp"
+#include "monitor/session_answer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -85,7 +85,7 @@ struct RadioNow {
   std::optional<double> seconds_to_equal_map;  ///< at the present rate of submaps; empty while none come
 };
 
-/// How far the robots' maps are from equal, by the numbers of nodes and submaps in their statuses. Equal
+/// The robots' progress towards equal maps, by the numbers of nodes and submaps in their statuses. Equal
 /// numbers do not show that the submaps are the same ones: after an outage each robot may have its own.
 struct FleetMaps {
   std::optional<AgentId> last;      ///< it will have fewer submaps for the longest; empty: none has fewer

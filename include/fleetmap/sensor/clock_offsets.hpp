@@ -53,7 +53,7 @@ class ClockOffsets {
   std::optional<double> behind(Source source) const;
   /// By how much the clock of `source` is too slow (1e-6), once it is found to drift.
   std::optional<double> slow_ppm(Source source) const;
-  /// What was found since the last call.
+  /// The news since the last call.
   std::vector<ClockNews> take_news();
   /// Its sentences.
   std::vector<std::string> take_warnings();

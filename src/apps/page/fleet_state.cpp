@@ -10,7 +10,7 @@ namespace fleetmap::apps {
 namespace {
 
 constexpr Duration kScanSilence = std::chrono::seconds(5);
-/// Of a finding, which has its remedy as well, on the page's row of a robot.
+/// Characters of a finding, which has its remedy as well, among a robot's problems.
 constexpr std::size_t kMaxProblemLength = 120;
 constexpr std::size_t kMaxFindings = 5;
 

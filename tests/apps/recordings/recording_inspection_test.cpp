@@ -30,7 +30,7 @@ TEST(RecordingInspection, ListsTheSensorsOfASoundRecording) {
   EXPECT_THAT(r2.output(), ContainsRegex("GPS +0 +none"));
 }
 
-/// What `inspect` prints of the first `size` bytes of a whole recording, and its exit code.
+/// Exit code and output of `inspect` for the first `size` bytes of a whole recording.
 std::pair<int, std::string> inspection_of_beginning(std::size_t size) {
   const testing::TemporaryFolder folder;
   const std::string whole =
