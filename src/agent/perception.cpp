@@ -20,6 +20,8 @@ namespace {
 
 /// Samples kept for LOAM between two scans: beyond this the LiDAR is silent and they are of no use.
 constexpr std::size_t kMaxSamplesBetweenScans = 4000;
+/// A clock that is set again and again changes its offset each time; further reports are in the log alone.
+constexpr std::size_t kMaxClockFindings = 20;
 
 template <class T>
 void keep(std::vector<T>& samples, const T& sample) {
@@ -46,6 +48,8 @@ Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnEstimate
   bus_.advertise(ros_codec::topics::odometry());
   bus_.advertise(fleet_codec::topics::global_pose());
   health_.set_imu_rotation(config_.odometry.q_base_imu);
+  for (const std::string& finding : config_.findings_before) health_.add_finding(finding);
+  health_.take_warnings();  // they were logged
   if (config_.gyro_in_degrees) health_.expect_degrees(*config_.gyro_in_degrees);
   subscribe();
 }
@@ -66,8 +70,9 @@ void Perception::subscribe() {
                            ekf_.add(imu);
                            if (config_.odometry_uses_imu) keep(imu_since_scan_, imu);
                          });
-  on_sample<sensor::Fix>(named(ros_codec::topics::fix(), names.fix), sensor::Source::kGps, counters_.fixes,
-                         [this](const sensor::Fix& fix) { ekf_.add(fix); });
+  if (config_.uses_gps)
+    on_sample<sensor::Fix>(named(ros_codec::topics::fix(), names.fix), sensor::Source::kGps, counters_.fixes,
+                           [this](const sensor::Fix& fix) { ekf_.add(fix); });
   on_sample<sensor::Wheel>(named(ros_codec::topics::wheel_odometry(), names.wheel), sensor::Source::kWheel,
                            counters_.wheel, [this](const sensor::Wheel& wheel) {
                              ekf_.add(wheel);
@@ -97,7 +102,7 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
         if (clock_offsets_.unclear(source)) return void(++counters_.unclear_stamps);
         sample->stamp += clock_offsets_.correction(source);
         const bool sound = health_.check(*sample);
-        for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
+        log_findings();
         if (sound) use(*sample);
       }));
 }
@@ -106,7 +111,16 @@ void Perception::on_transforms(const Bytes& cdr) {
   const auto transforms = ros_codec::decode_transforms(cdr);
   if (!transforms) return warn("/tf_static: message refused", transforms.error().message);
   mounts_.add(*transforms);
-  for (const std::string& news : mounts_.take_warnings()) spdlog::warn("{}", news);
+  report_mounts();
+}
+
+void Perception::report_mounts() {
+  for (std::string& news : mounts_.take_warnings()) health_.add_finding(std::move(news));
+  log_findings();
+}
+
+void Perception::log_findings() {
+  for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
 }
 
 bool Perception::placed(sensor::Source source, const Bytes& cdr) {
@@ -118,7 +132,7 @@ bool Perception::placed(sensor::Source source, const Bytes& cdr) {
   const auto state = at_work ? SensorMounts::State::kWaits : mounts_.on_message(source, *frame, bus_.now());
   if (state == SensorMounts::State::kWaits) ++counters_.waited_for_frames;
   if (state != SensorMounts::State::kDecided) return state == SensorMounts::State::kKnown;
-  for (const std::string& news : mounts_.take_warnings()) spdlog::warn("{}", news);
+  report_mounts();
   if (!mounts_.by_frames(source)) return true;
   spdlog::info("{}", mounts_.summary(source));
   mounts_.apply_to(config_, source);
@@ -134,7 +148,16 @@ bool Perception::placed(sensor::Source source, const Bytes& cdr) {
 
 void Perception::watch_clock(sensor::Source source, Stamp stamp) {
   clock_offsets_.add(source, stamp, bus_.now());
-  for (const std::string& news : clock_offsets_.take_warnings()) spdlog::warn("{}", news);
+  for (sensor::ClockNews& news : clock_offsets_.take_news()) {
+    if (clock_findings_++ >= kMaxClockFindings) {
+      spdlog::warn("{}", news.text);
+    } else if (news.settled) {
+      health_.add_note(std::move(news.text));
+    } else {
+      health_.add_finding(std::move(news.text));
+    }
+  }
+  log_findings();
 }
 
 void Perception::on_scan(const Bytes& cdr) {
@@ -209,10 +232,11 @@ void Perception::finish(Job& job) {
   if (job.update)
     health_.check_motion(job.update->stamp,
                          job.update->lost ? std::nullopt : std::optional(job.update->T_odom_base));
-  for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
   if (job.times_in_microseconds)
-    warn("point times in microseconds",
-         "the field's definition is nanoseconds; they are converted. Correct the driver");
+    health_.add_finding(
+        "LiDAR: point times are in microseconds, although the field's definition is nanoseconds; they are "
+        "converted. Correct the driver");
+  log_findings();
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
     report_loss(update);

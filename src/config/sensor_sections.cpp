@@ -205,6 +205,9 @@ void read_gps(Section& top, agent::PerceptionConfig& perception) {
   if ((devices.nmea || devices.gpsd) && devices.mavlink && devices.mavlink_gps)
     gps.problem(devices.nmea ? "nmea_device" : "gpsd",
                 "the autopilot's GPS is used as well; set mavlink.gps: false, or leave this one out");
+  gps.read("use", perception.uses_gps);
+  if (!perception.uses_gps && (devices.nmea || devices.gpsd))
+    gps.problem("use", "a receiver is given as well; leave one of them out");
   gps.read("translation", ekf.mounting.p_base_antenna);
   perception.mount_configured[static_cast<std::size_t>(sensor::Source::kGps)] = gps.has("translation");
   gps.read("correlation_time", ekf.gps.correlation_time);

@@ -81,11 +81,12 @@ Facts facts_of(const FleetView& view) {
   return facts;
 }
 
+/// In the horizontal plane, as loop candidates are searched.
 void find_nearest(const std::vector<PlacedNode>& a, const std::vector<PlacedNode>& b, PairAnswer& answer) {
   double min_squared = std::numeric_limits<double>::infinity();
   for (const PlacedNode& one : a) {
     for (const PlacedNode& other : b) {
-      const double squared = (one.p_enu - other.p_enu).squaredNorm();
+      const double squared = (one.p_enu - other.p_enu).head<2>().squaredNorm();
       if (squared >= min_squared) continue;
       min_squared = squared;
       answer.nearest = std::pair(one.id, other.id);

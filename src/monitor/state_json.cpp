@@ -12,6 +12,7 @@
 #include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/monitor/pair_answer.hpp"
 #include "rounded_json.hpp"
+#include "session_answer.hpp"
 
 namespace fleetmap::monitor {
 namespace {
@@ -272,6 +273,7 @@ std::string state_json(const FleetView& view) {
                    {"logs", names_of(view.logs)},
                    {"holdings", holdings_json(view)},
                    {"pairs", answers_json(view)},
+                   {"loose_sessions", loose_sessions(view)},
                    {"notes", view.notes}};
   return state.dump(-1, ' ', false, json::error_handler_t::replace);
 }

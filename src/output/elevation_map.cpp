@@ -119,6 +119,7 @@ Result<WrittenElevation> write_elevation(store::Store& store, const std::map<Nod
   if (!folder) return tl::unexpected(folder.error());
   auto tiled = tiled_map(store, T_map_node, merge);
   if (!tiled) return tl::unexpected(tiled.error());
+  if (const Status some = require_points(tiled->outline()); !some) return tl::unexpected(some.error());
   const auto raster = elevation_of(*tiled, crs, config);
   if (!raster) return tl::unexpected(raster.error());
   Status written = write_rasters(*writer, *raster, crs, software, folder->part());

@@ -101,6 +101,10 @@ Result<WrittenLas> stream(store::TiledMerge& merge, const MapCrs& crs, Result<Fi
     return {};
   });
   if (!streamed) return tl::unexpected(streamed.error());
+  if (files->points() == 0)
+    return failure(
+        "the map has no point: all are too far from the origin for LAS; give an origin at the site "
+        "(--origin)");
   if (const Status finished = files->finish(); !finished) return tl::unexpected(finished.error());
   const store::MapOutline& outline = merge.outline();
   return WrittenLas{outline, files->points(), outline.points_refused + files->left_out(), count_of(*files)};
@@ -119,6 +123,7 @@ Result<WrittenLas> write_las(store::Store& store, const std::map<NodeId, Pose>& 
                              const store::MergeConfig& merge, const MapCrs& crs, const LasMapConfig& config) {
   auto tiled = tiled_map(store, T_map_node, merge);
   if (!tiled) return tl::unexpected(tiled.error());
+  if (const Status some = require_points(tiled->outline()); !some) return tl::unexpected(some.error());
   const auto description = description_of(store, T_map_node, merge, tiled->outline(), crs, config.software);
   if (config.tile) return stream(*tiled, crs, cloud::LasTiles::create(config.out, *config.tile, description));
   return stream(*tiled, crs, cloud::LasWriter::create(config.out, description));

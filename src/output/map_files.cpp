@@ -46,20 +46,39 @@ Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, 
                                  config);
 }
 
+Status require_points(const store::MapOutline& outline) {
+  const auto no_point = [](const std::string& why) { return failure("the map has no point: " + why); };
+  if (!outline.unreadable.empty() && outline.submaps == 0)
+    return no_point("none of its " + std::to_string(outline.unreadable.size()) +
+                    " submaps can be read, so the store is damaged; use that of another robot");
+  if (outline.submaps == 0)
+    return no_point("no submap of its nodes is held; use the store of a robot that holds them");
+  if (outline.points_in == 0)
+    return no_point("its " + std::to_string(outline.submaps) + " submaps are empty");
+  if (outline.points_in > outline.points_refused) return {};
+  return no_point("all " + std::to_string(outline.points_in) +
+                  " points are too far from the origin of ENU; give an origin at the site (--origin)");
+}
+
 Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                 const store::MergeConfig& config,
                                 std::span<const std::filesystem::path> files,
                                 const std::vector<std::string>& comments) {
   auto merge = tiled_map(store, T_map_node, config);
   if (!merge) return tl::unexpected(merge.error());
+  return write_planned(*merge, files, comments);
+}
+
+Result<WrittenMap> write_planned(store::TiledMerge& merge, std::span<const std::filesystem::path> files,
+                                 const std::vector<std::string>& comments) {
   std::vector<cloud::CloudWriter> writers;
   for (const std::filesystem::path& file : files) {
-    auto writer = cloud::CloudWriter::create(file, merge->outline().has_intensities, comments);
+    auto writer = cloud::CloudWriter::create(file, merge.outline().has_intensities, comments);
     if (!writer) return tl::unexpected(writer.error());
     writers.push_back(std::move(*writer));
   }
   WrittenMap written;
-  const Status streamed = merge->stream([&](const store::MapTile& tile) -> Status {
+  const Status streamed = merge.stream([&](const store::MapTile& tile) -> Status {
     written.points += tile.cloud.size();
     for (cloud::CloudWriter& writer : writers) {
       if (const Status added = writer.add(tile.cloud); !added) return added;
@@ -70,7 +89,7 @@ Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose
   for (cloud::CloudWriter& writer : writers) {
     if (const Status finished = writer.finish(); !finished) return tl::unexpected(finished.error());
   }
-  written.outline = merge->outline();
+  written.outline = merge.outline();
   return written;
 }
 

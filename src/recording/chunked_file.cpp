@@ -91,9 +91,10 @@ void ChunkedFile::leave_out(const std::string& why) {
   if (damaged_++ == 0) spdlog::warn("{}: {}; it is left out, as will be others", file_.string(), why);
 }
 
-void ChunkedFile::warn_of_cut(std::uint64_t at, const char* remedy) const {
-  spdlog::warn("{}: cut within its last record, {} bytes are left out; {}", file_.string(), size_ - at,
-               remedy);
+void ChunkedFile::note_cut(std::uint64_t at, const char* remedy) {
+  cut_ = true;
+  spdlog::warn("{}: its end is missing, {} bytes of a record that was cut are left out; {}", file_.string(),
+               size_ - at, remedy);
 }
 
 }  // namespace fleetmap::recording

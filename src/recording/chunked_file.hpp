@@ -18,7 +18,7 @@ class ChunkedFile : public BagFile {
  public:
   Result<std::vector<BagTopic>> topics() override;
   Result<std::optional<BagMessage>> next() override;
-  std::uint64_t damaged_parts() const override { return damaged_; }
+  std::uint64_t damaged_parts() const override { return damaged_ + (cut_ ? 1 : 0); }
 
  protected:
   static constexpr std::uint64_t kMaxRecordBytes = 256u << 20;  ///< writers make chunks of some MB
@@ -53,8 +53,8 @@ class ChunkedFile : public BagFile {
   Result<Bytes> read(std::uint64_t at, std::uint64_t count);
   /// Counts a damaged part, and logs the first.
   void leave_out(const std::string& why);
-  /// Logs that the file ends within a record that begins at a byte.
-  void warn_of_cut(std::uint64_t at, const char* remedy) const;
+  /// Counts and logs that the file ends within a record that begins at a byte, or before its last one.
+  void note_cut(std::uint64_t at, const char* remedy);
 
   const std::filesystem::path& file() const { return file_; }
   std::uint64_t size() const { return size_; }
@@ -79,6 +79,7 @@ class ChunkedFile : public BagFile {
   std::multimap<std::uint64_t, Held> held_;   ///< by time
   Held current_;
   std::uint64_t damaged_ = 0;
+  bool cut_ = false;
 };
 
 }  // namespace fleetmap::recording

@@ -67,19 +67,18 @@ Status McapFile::note_record(Opcode opcode, std::uint64_t content, std::uint64_t
 
 Status McapFile::index() {
   std::uint64_t at = std::size(mcap::kMagic);
-  while (at + mcap::kPrefixBytes <= size()) {
+  bool closed = false;
+  while (!closed && at + mcap::kPrefixBytes <= size()) {
     const auto bytes = read(at, mcap::kPrefixBytes);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto [opcode, length] = mcap::read_prefix(*bytes);
-    if (opcode == Opcode::kFooter) break;
+    closed = opcode == Opcode::kFooter;
     const std::uint64_t content = at + mcap::kPrefixBytes;
-    if (length > size() - content) {
-      warn_of_cut(at, "`mcap recover` gives a whole file");
-      break;
-    }
+    if (closed || length > size() - content) break;
     if (Status status = note_record(opcode, content, length); !status) return status;
     at = content + length;
   }
+  if (!closed) note_cut(at, "`mcap recover` gives a whole file");
   sort_found();
   return {};
 }

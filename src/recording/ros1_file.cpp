@@ -85,19 +85,22 @@ Status Ros1File::index() {
   constexpr const char* kRemedy = "`rosbag reindex` gives a whole file";
   std::uint64_t at = ros1::kMagic.size();
   while (at < size()) {
-    if (size() - at < 8) break;
+    if (size() - at < 8) {
+      note_cut(at, kRemedy);
+      break;
+    }
     const auto head = read(at, 4);
     if (!head) return tl::unexpected(head.error());
     const auto header_bytes = ByteFields(*head).number<std::uint32_t>();
     if (header_bytes > kMaxRecordBytes || header_bytes > size() - at - 8) {
-      warn_of_cut(at, kRemedy);
+      note_cut(at, kRemedy);
       break;
     }
     const auto middle = read(at + 4 + header_bytes, 4);
     if (!middle) return tl::unexpected(middle.error());
     const auto data_bytes = ByteFields(*middle).number<std::uint32_t>();
     if (data_bytes > size() - at - 8 - header_bytes) {
-      warn_of_cut(at, kRemedy);
+      note_cut(at, kRemedy);
       break;
     }
     if (Status status = note_record(at, header_bytes, data_bytes); !status) return status;

@@ -16,6 +16,8 @@ constexpr double kSilent = 5.0;  // s
 
 Item health(const RobotState& state) {
   Item item{Level::ok, "fleetmap: sensor health", "no finding", state.self.str(), {}};
+  for (std::size_t k = 0; k < state.notes.size(); ++k)
+    item.values.emplace_back(fmt::format("note {}", k + 1), state.notes[k]);
   if (state.findings.empty()) return item;
   item.level = Level::warning;
   item.message = state.findings.back();

@@ -199,14 +199,14 @@ void ClockOffsets::report_offset(Source source, double offset, Stamp arrival) {
   news_.push_back(offset_report(source, offset, is_off));
 }
 
-std::string ClockOffsets::offset_report(Source source, double offset, bool is_off) const {
+ClockNews ClockOffsets::offset_report(Source source, double offset, bool is_off) const {
   const Track& own = track(source);
   const std::string reference = alone() ? "the computer's clock" : "those of the other sensors";
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << to_string(source) << ": stamps ";
   if (!is_off) {
     text << "agree with " << reference << " again";
-    return text.str();
+    return {text.str(), true};
   }
   const double exact = own.is_off || alone() ? nearest_of_time_scales(offset) : offset;
   text << "are " << std::abs(exact) << " s " << (offset > 0.0 ? "behind " : "ahead of ") << reference
@@ -218,7 +218,7 @@ std::string ClockOffsets::offset_report(Source source, double offset, bool is_of
   } else {
     text << "if that is no slow driver, set the sensor's clock";
   }
-  return text.str();
+  return {text.str(), own.is_off && !alone() && is_of_time_scales(offset)};
 }
 
 void ClockOffsets::report_drift(Source source, double slow) {
@@ -226,7 +226,7 @@ void ClockOffsets::report_drift(Source source, double slow) {
   text << std::fixed << std::setprecision(0) << to_string(source) << ": its clock runs "
        << kMillion * std::abs(slow) << " ppm too " << (slow > 0.0 ? "slow" : "fast")
        << " against those of the other sensors; its stamps are corrected by that: synchronise it (PTP, GPS)";
-  news_.push_back(text.str());
+  news_.push_back({text.str(), true});
 }
 
 bool ClockOffsets::unclear(Source source) const {
@@ -240,6 +240,12 @@ bool ClockOffsets::unclear(Source source) const {
 
 Duration ClockOffsets::correction(Source source) const { return from_seconds(track(source).correction); }
 
-std::vector<std::string> ClockOffsets::take_warnings() { return std::exchange(news_, {}); }
+std::vector<ClockNews> ClockOffsets::take_news() { return std::exchange(news_, {}); }
+
+std::vector<std::string> ClockOffsets::take_warnings() {
+  std::vector<std::string> warnings;
+  for (ClockNews& news : take_news()) warnings.push_back(std::move(news.text));
+  return warnings;
+}
 
 }  // namespace fleetmap::sensor

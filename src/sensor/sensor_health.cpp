@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -84,6 +85,20 @@ Duration shortest_usual(std::vector<Duration> intervals) {
 
 void SensorHealth::state(std::string finding) {
   if (std::ranges::find(findings_, finding) == findings_.end()) findings_.push_back(std::move(finding));
+}
+
+void SensorHealth::add_note(std::string note) {
+  if (std::ranges::find(findings_, note) != findings_.end()) return;
+  notes_.push_back(note);
+  findings_.push_back(std::move(note));
+}
+
+std::vector<std::string> SensorHealth::alarms() const {
+  std::vector<std::string> alarms;
+  std::ranges::copy_if(findings_, std::back_inserter(alarms), [this](const std::string& finding) {
+    return std::ranges::find(notes_, finding) == notes_.end();
+  });
+  return alarms;
 }
 
 bool SensorHealth::refuse() {

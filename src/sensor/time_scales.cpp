@@ -1,5 +1,6 @@
 #include "time_scales.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,6 +20,10 @@ constexpr double kLargestZone = 14.0 * 3600.0;    // s
 constexpr double kYear = 365.25 * 86400.0;        // s
 constexpr double kOldestReceiver = 10.0 * kYear;  // since 1970: GPS began in 1980
 
+bool is_difference(const Difference& difference, double offset) {
+  return std::abs(std::abs(offset) - difference.seconds) < kDrivers;
+}
+
 bool is_time_zone(double offset) {
   const double size = std::abs(offset);
   const double zone = kQuarter * std::round(size / kQuarter);
@@ -29,15 +34,20 @@ bool is_time_zone(double offset) {
 
 double nearest_of_time_scales(double offset) {
   for (const Difference& difference : kDifferences) {
-    if (std::abs(std::abs(offset) - difference.seconds) < kDrivers)
-      return std::copysign(difference.seconds, offset);
+    if (is_difference(difference, offset)) return std::copysign(difference.seconds, offset);
   }
   return is_time_zone(offset) ? kQuarter * std::round(offset / kQuarter) : offset;
 }
 
+bool is_of_time_scales(double offset) {
+  return is_time_zone(offset) || std::ranges::any_of(kDifferences, [&](const Difference& difference) {
+           return is_difference(difference, offset);
+         });
+}
+
 std::string reason_of(double offset, Stamp stamp) {
   for (const Difference& difference : kDifferences) {
-    if (std::abs(std::abs(offset) - difference.seconds) < kDrivers)
+    if (is_difference(difference, offset))
       return std::string(" (the difference of ") + difference.meaning + ")";
   }
   if (is_time_zone(offset)) return " (a time zone)";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 #include "fleetmap/cloud/codec.hpp"
@@ -17,6 +18,15 @@ class DrivenDays {
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   /// The store `name` of a day; `gps_error` (m) is that of the day.
   void drive(const std::string& name, std::uint16_t session, const Eigen::Vector3d& gps_error) const {
+    make(name, session, gps_error);
+  }
+  void drive_without_gps(const std::string& name, std::uint16_t session) const {
+    make(name, session, std::nullopt);
+  }
+
+ private:
+  void make(const std::string& name, std::uint16_t session,
+            const std::optional<Eigen::Vector3d>& gps_error) const {
     const AgentId r1 = AgentId::parse("r1").value();
     auto store = store::Store::open(path(name), r1).value();
     for (std::uint32_t k = 0; k < 4; ++k) {
@@ -28,10 +38,7 @@ class DrivenDays {
       node.stamp = stamp_from_ns(1'000'000'000LL * (k + 1));
       node.T_odom_base = make_pose(rotation_from_rpy(0, 0, 1.0), {50.0, 9.0 * session, 0.0}) * T_world_base;
       node.odom_covariance = Vector6d(1e-4, 1e-4, 1e-4, 1e-6, 1e-6, 1e-6).asDiagonal();
-      GlobalPose& G = node.G.emplace();
-      G.position = LocalFrame(origin_).to_geo(T_world_base.translation() + gps_error);
-      G.q_enu_base = Eigen::Quaterniond(T_world_base.linear());
-      G.covariance.diagonal() << 2.0, 2.0, 2.0, 1e-4, 1e-4, 1e-2;
+      if (gps_error) node.G = gps_at(T_world_base, *gps_error);
       const Bytes submap =
           cloud::encode(world_.scan(T_world_base, 15'000, 0.02, 10 * session + k + 1), {}).value();
       node.submap_hash = content_hash(submap);
@@ -39,8 +46,14 @@ class DrivenDays {
       ASSERT_EQ(store.put_node_with_submap(node, submap).value(), store::Put::kAdded);
     }
   }
+  GlobalPose gps_at(const Pose& T_world_base, const Eigen::Vector3d& error) const {
+    GlobalPose G;
+    G.position = LocalFrame(origin_).to_geo(T_world_base.translation() + error);
+    G.q_enu_base = Eigen::Quaterniond(T_world_base.linear());
+    G.covariance.diagonal() << 2.0, 2.0, 2.0, 1e-4, 1e-4, 1e-2;
+    return G;
+  }
 
- private:
   GeoPoint origin_ = geo_point_from_degrees(39.0, -3.0, 600.0);
   registration::testing::MadeWorld world_{7};
   testing::TemporaryFolder folder_;

@@ -183,6 +183,10 @@ TEST(SensorSections, ProblemsNameTheKeyWhereverItStands) {
     EXPECT_THAT(perception_of(std::string("lidar:\n  velodyne_port: ") + port).problems,
                 HasSubstr("robot.yaml:2: lidar.velodyne_port: expected a UDP port"));
   }
+  EXPECT_TRUE(perception_of("{}\n").perception.uses_gps);
+  EXPECT_FALSE(perception_of("gps: {use: false}\n").perception.uses_gps);
+  EXPECT_THAT(perception_of("gps: {use: false, gpsd: localhost}\n").problems,
+              HasSubstr("gps.use: a receiver"));
   EXPECT_THAT(perception_of("gps: {sigma: 1}\n").problems, HasSubstr("gps.sigma: unknown key"));
   EXPECT_THAT(perception_of("wheel: {speed_sigma: 0}\n").problems, HasSubstr("wheel.speed_sigma"));
 }

@@ -59,6 +59,15 @@ TEST(PairAnswer, the_radius_decides_what_is_near) {
   EXPECT_EQ(explain_pairs(fleet.view).front().state, PairState::never_near);
 }
 
+TEST(PairAnswer, heights_do_not_count_in_what_is_near) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 1).robot("r2", 20, 1).logs({"r1", "r2"});
+  fleet.view.placement.T_enu_node.at(node_id("r2", 0)).translation().z() = 60.0;
+  const PairAnswer answer = answer_of(fleet.view, "r1", "r2");
+  EXPECT_EQ(answer.state, PairState::not_tried) << "GPS may err by as much in height";
+  EXPECT_DOUBLE_EQ(*answer.nearest_m, 20.0);
+}
+
 TEST(PairAnswer, near_robots_that_nobody_registered) {
   ViewMaker fleet;
   fleet.robot("r1", 0).robot("r2", 12).logs({"r1", "r2"});

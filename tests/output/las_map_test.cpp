@@ -109,15 +109,17 @@ TEST_F(LasMap, TilesAddUpToTheWhole) {
   EXPECT_EQ(written->points, whole.size());
 }
 
-TEST_F(LasMap, WithoutSubmapsItIsEmpty) {
-  T_enu_node_.clear();
-  const auto written = write("map.las");
-  ASSERT_TRUE(written) << written.error().message;
-  EXPECT_EQ(written->points, 0u);
-  const LasFile file = read_las(folder_.path() / "map.las");
-  EXPECT_EQ(file.count, 0u);
-  EXPECT_EQ(file.year, 0) << "not given";
-  EXPECT_THAT(file.text(), HasSubstr("Intensity: not given"));
+TEST_F(LasMap, WithoutAPointItIsRefusedAndNotWritten) {
+  const auto poses = std::exchange(T_enu_node_, {});
+  const auto none = write("map.las");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("no submap of its nodes is held"));
+  T_enu_node_ = poses;
+  for (auto& [id, T] : T_enu_node_) T.translation().x() = 3e7;
+  const auto far = write("map.las");
+  ASSERT_FALSE(far);
+  EXPECT_THAT(far.error().message, HasSubstr("all are too far from the origin for LAS"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "map.las"));
 }
 
 TEST_F(LasMap, APoseFarAwayOrDamagedLosesItsPointsAndNothingElse) {

@@ -26,7 +26,7 @@ const BagMetadata kDriveMetadata{
     .compression_format = "zstd",
     .compression_mode = "FILE",
     .files = {"a: b_0.mcap.zstd", "#_1.mcap.zstd"},
-    .topics = {{"/points", "sensor_msgs/msg/PointCloud2", 3}, {"/imu", "x/msg/Imu", 40}},
+    .topics = {{"/points", "sensor_msgs/msg/PointCloud2", 3, {}}, {"/imu", "x/msg/Imu", 40, {}}},
     .first_ns = 1'700'000'000'000'000'005,
     .last_ns = 1'700'000'003'500'000'000};
 

@@ -156,7 +156,9 @@ TEST(OusterSharedData, PacketsForFunctionalSafetyAreDecoded) {
     ASSERT_TRUE(packet) << packet.error().what;
     EXPECT_EQ(packet->frame, 229u);
     for (const sensor::OusterColumn& column : packet->columns) {
-      if (packets > 0) EXPECT_EQ(column.measurement, next_column);
+      if (packets > 0) {
+        EXPECT_EQ(column.measurement, next_column);
+      }
       next_column = column.measurement + 1;
       append_points(*metadata, column, 0.0, points);
     }

@@ -26,7 +26,7 @@ std::string value(const DiagnosticsMsg::Item& item, const std::string& key) {
 }
 
 TEST(Diagnostics, FindingsOfTheSensorsAreAWarningWithAllOfThem) {
-  RobotState state{kSelf, stamp_from_ns(7), {}, {}, {}, {}};
+  RobotState state{kSelf, stamp_from_ns(7), {}, {}, {}, {}, {}};
   EXPECT_EQ(diagnostics(state).stamp, stamp_from_ns(7));
   EXPECT_EQ(item(state, "fleetmap: sensor health").level, Level::ok);
   state.findings = {"the IMU reports g", "the gyro reports deg/s"};
@@ -36,8 +36,16 @@ TEST(Diagnostics, FindingsOfTheSensorsAreAWarningWithAllOfThem) {
   EXPECT_EQ(value(health, "finding 2"), "the gyro reports deg/s");
 }
 
+TEST(Diagnostics, ANoteIsThereAndNoWarning) {
+  RobotState state{kSelf, {}, {}, {}, {}, {}, {"imu: stamps are 37.00 s ahead and corrected"}};
+  const auto health = item(state, "fleetmap: sensor health");
+  EXPECT_EQ(health.level, Level::ok);
+  EXPECT_EQ(health.message, "no finding");
+  EXPECT_EQ(value(health, "note 1"), "imu: stamps are 37.00 s ahead and corrected");
+}
+
 TEST(Diagnostics, ASensorIsStaleByTheAgeOfItsLastSample) {
-  RobotState state{kSelf, {}, {}, {}, {}, {}};
+  RobotState state{kSelf, {}, {}, {}, {}, {}, {}};
   state.sensors = {{"LiDAR", 20, 10.0, 0.25, {}, 0.0},
                    {"IMU", 5, 0.0, {}, {}, 6.0},
                    {"GPS", 4, 0.0, {}, {}, 2.0},
@@ -58,7 +66,7 @@ TEST(Diagnostics, ARobotIsAWarningWithAProblemAndStaleUnheard) {
   self.battery = 0.5;
   other.id = kOther;
   other.activity = "was not heard yet";
-  RobotState state{kSelf, {}, {}, {}, {self, other}, 60.0};
+  RobotState state{kSelf, {}, {}, {}, {self, other}, 60.0, {}};
   EXPECT_EQ(item(state, "fleetmap: robot r1").level, Level::ok) << "it does not hear itself";
   EXPECT_EQ(item(state, "fleetmap: robot r1").message, "maps");
   EXPECT_EQ(value(item(state, "fleetmap: robot r1"), "battery, %"), "50");
@@ -74,7 +82,7 @@ TEST(Diagnostics, ARobotIsStaleWhenItWasHeardForTheLastTimeLongAgo) {
   monitor::RobotNow other;
   other.id = kOther;
   other.heard = {{"short_range", 300.0}, {"long_range", 59.0}};
-  RobotState state{kSelf, {}, {}, {}, {other}, 60.0};
+  RobotState state{kSelf, {}, {}, {}, {other}, 60.0, {}};
   EXPECT_EQ(item(state, "fleetmap: robot r2").level, Level::ok) << "by the link that heard it last";
   state.robots[0].heard[1].seconds_ago = 61.0;
   EXPECT_EQ(item(state, "fleetmap: robot r2").level, Level::stale);

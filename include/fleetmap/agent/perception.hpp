@@ -102,6 +102,10 @@ class Perception {
   /// False while the sensor's mount is not known.
   bool placed(sensor::Source source, const Bytes& cdr);
   void on_transforms(const Bytes& cdr);
+  /// Makes what is wrong with the mounts findings.
+  void report_mounts();
+  /// Logs the findings that are new.
+  void log_findings();
   void on_scan(const Bytes& cdr);
   void start_next();
   /// Runs LOAM and the checks on a scan, off the callback thread.
@@ -132,6 +136,7 @@ class Perception {
   bool busy_ = false;
   Stamp last_sample_, last_scan_;
   std::uint64_t lost_in_a_row_ = 0;  ///< scans
+  std::size_t clock_findings_ = 0;
   PerceptionCounters counters_;
   std::map<std::string, std::uint64_t> warned_;
   std::vector<bus::Handle> subscriptions_;

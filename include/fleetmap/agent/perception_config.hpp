@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fleetmap/agent/device_config.hpp"
 #include "fleetmap/agent/ouster_config.hpp"
@@ -38,6 +39,8 @@ struct PerceptionConfig {
   std::size_t waiting_scans = 50;  ///< scans that may wait for LOAM; the oldest gives way and is counted
   /// Why the gyro is taken for one that reports deg/s; found in a recording before it is used.
   std::optional<std::string> gyro_in_degrees;
+  /// Findings of a recording before it is used, which were logged.
+  std::vector<std::string> findings_before;
   odometry::LidarModel lidar = odometry::vlp16();
   SensorTopics topics;
   DeviceConfig devices;
@@ -46,6 +49,7 @@ struct PerceptionConfig {
   std::uint16_t velodyne_port = 0;
   bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
   bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
+  bool uses_gps = true;             ///< else fixes are not heard
   /// The configuration states the mount of LiDAR, IMU and GPS (in the order of sensor::Source), so that
   /// /tf_static does not replace it.
   std::array<bool, sensor::kSources> mount_configured{};

@@ -85,10 +85,11 @@ struct RadioNow {
   std::optional<double> seconds_to_equal_map;  ///< at the present rate of submaps; empty while none come
 };
 
-/// How far the robots' maps are from equal, by what each says that it holds.
+/// The robots' progress towards equal maps, by the numbers of nodes and submaps in their statuses. Equal
+/// numbers do not show that the submaps are the same ones: after an outage each robot may have its own.
 struct FleetMaps {
-  std::optional<AgentId> last;             ///< it will lack submaps for the longest; empty: none lacks one
-  std::size_t missing_submaps = 0;         ///< of `last`
+  std::optional<AgentId> last;      ///< it will have fewer submaps for the longest; empty: none has fewer
+  std::size_t missing_submaps = 0;  ///< of `last`
   std::optional<double> seconds_to_equal;  ///< at the rates of the last minute; empty while `last` gets none
   std::vector<AgentId> not_counted;        ///< lost, or not heard yet
 };

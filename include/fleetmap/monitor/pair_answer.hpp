@@ -33,7 +33,7 @@ struct PairAnswer {
   std::string text;  ///< answers "Why are a and b not joined?", or what joins them
   std::size_t attempts = 0, accepted = 0, used = 0;
   std::vector<AgentId> missing_logs;  ///< of the two, those whose registrations are not in FleetView::logs
-  std::optional<double> nearest_m;    ///< between their nodes as placed; where both are on one map
+  std::optional<double> nearest_m;    ///< horizontal, between their nodes as placed on Earth
   std::optional<std::pair<NodeId, NodeId>> nearest;
 };
 

@@ -21,6 +21,8 @@ store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T
                             const store::MergeConfig& config);
 Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                     const store::MergeConfig& config);
+/// Fails, with the cause and the remedy, if no point of a planned map can be used.
+Status require_points(const store::MapOutline& outline);
 
 /// Outline and number of points of a map that was written.
 struct WrittenMap {
@@ -33,6 +35,9 @@ Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose
                                 const store::MergeConfig& config,
                                 std::span<const std::filesystem::path> files,
                                 const std::vector<std::string>& comments = {});
+/// The same of a map that is planned.
+Result<WrittenMap> write_planned(store::TiledMerge& merge, std::span<const std::filesystem::path> files,
+                                 const std::vector<std::string>& comments = {});
 
 /// Hash of all that a map is a function of: submaps, their poses, how they are merged. Equal on agents that
 /// hold the same set.

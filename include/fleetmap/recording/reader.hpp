@@ -32,7 +32,7 @@ struct Counters {
   std::uint64_t origin_points = 0;              ///< exactly (0, 0, 0): no return; of the scans read
   std::uint64_t noise_points = 0;               ///< marked as noise by a Livox LiDAR; of the scans read
   std::uint64_t undecodable_messages = 0;       ///< truncated or contradictory; skipped
-  std::uint64_t damaged_parts = 0;              ///< of an mcap or ROS 1 file; left out
+  std::uint64_t damaged_parts = 0;              ///< of an mcap, ROS 1 or pcap file, also a cut end; left out
   std::uint64_t empty_scans = 0;                ///< without a single return; skipped
   std::uint64_t time_backwards = 0;             ///< not later than the one before of its kind; skipped
   std::uint64_t clocks_set_back = 0;            ///< times that the stamps of a kind went on far earlier

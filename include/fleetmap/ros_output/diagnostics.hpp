@@ -17,6 +17,7 @@ struct RobotState {
   std::vector<monitor::SensorNow> sensors;
   std::vector<monitor::RobotNow> robots;
   std::optional<double> lost_after_s;  ///< a robot silent for longer is stale; empty: hearing is not known
+  std::vector<std::string> notes;      ///< of the checks: what was corrected exactly
 };
 
 /// One status for the checks of the sensors, one a sensor that was heard, one a robot.

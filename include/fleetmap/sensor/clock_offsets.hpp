@@ -18,6 +18,14 @@ enum class Source : std::uint8_t { kLidar, kImu, kGps, kWheel };
 inline constexpr std::size_t kSources = 4;
 const char* to_string(Source source);
 
+/// A sentence on a clock, for a person.
+struct ClockNews {
+  std::string text;
+  /// The stamps are right all the same: corrected by a difference that time scales have, or by a drift that
+  /// is followed, or they agree again.
+  bool settled = false;
+};
+
 /// Finds sensors whose stamps are of another clock than those of the others, from when samples arrive: live
 /// by the bus's clock, in recordings by the times at which they were recorded.
 ///
@@ -45,7 +53,9 @@ class ClockOffsets {
   std::optional<double> behind(Source source) const;
   /// By how much the clock of `source` is too slow (1e-6), once it is found to drift.
   std::optional<double> slow_ppm(Source source) const;
-  /// Sentences for a person, each once.
+  /// The news since the last call.
+  std::vector<ClockNews> take_news();
+  /// Its sentences.
   std::vector<std::string> take_warnings();
 
  private:
@@ -82,12 +92,12 @@ class ClockOffsets {
   void find_drifts();
   void check(Source source, double right, Duration since, Stamp arrival);
   void report_offset(Source source, double offset, Stamp arrival);
-  std::string offset_report(Source source, double offset, bool is_off) const;
+  ClockNews offset_report(Source source, double offset, bool is_off) const;
   void report_drift(Source source, double slow);
 
   std::array<Track, kSources> tracks_;
   std::optional<Stamp> last_arrival_;
-  std::vector<std::string> news_;
+  std::vector<ClockNews> news_;
 };
 
 }  // namespace fleetmap::sensor

@@ -29,6 +29,8 @@ class SensorHealth {
   void check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base);
   /// Adds the finding of a check that runs elsewhere (TurnDirection), once.
   void add_finding(std::string finding) { state(std::move(finding)); }
+  /// Adds a finding by which no sample is wrong, since what it names was corrected exactly.
+  void add_note(std::string note);
   /// The reason why gyro and wheels were not compared with the LiDAR; empty if they were.
   std::optional<std::string> motion_not_compared() const { return motion_.not_compared(); }
   /// Mount of the IMU, before its first sample.
@@ -53,6 +55,9 @@ class SensorHealth {
   std::vector<std::string> take_warnings();
   /// All that was found, in order.
   const std::vector<std::string>& findings() const { return findings_; }
+  /// The findings that are notes, and those that are not.
+  const std::vector<std::string>& notes() const { return notes_; }
+  std::vector<std::string> alarms() const;
   /// Samples that check() refused.
   std::uint64_t refused() const { return refused_; }
   /// By the time between scans; an estimate.
@@ -89,7 +94,7 @@ class SensorHealth {
   double imu_gaps_ = 0.0;  ///< s
   std::vector<Eigen::Vector3d> grounds_;
   std::uint64_t scans_for_ground_ = 0;
-  std::vector<std::string> findings_;
+  std::vector<std::string> findings_, notes_;
   int impossible_rates_ = 0;  ///< in a row
   bool speed_from_pose_ = false;
   bool no_altitude_ = false, no_place_ = false, imu_gaps_reported_ = false;

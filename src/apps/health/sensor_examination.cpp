@@ -86,8 +86,23 @@ std::vector<std::string> listen_for(const agent::PerceptionConfig& config, bus::
   return device_findings(devices, config.devices, listener.streams().fixes());
 }
 
-std::vector<std::string> all_findings(SensorListener& listener, const config::RobotConfig& robot) {
-  std::vector<std::string> findings = listener.findings();
+/// `of_devices` are device_findings(), of which one on fixes explains their silence better.
+std::vector<std::string> silent_topics(const SensorListener& listener, const agent::SensorTopics& topics,
+                                       const std::vector<std::string>& of_devices) {
+  std::vector<std::string> silent = listener.silent_topics();
+  const auto is_of_fixes = [](const std::string& finding) { return finding.starts_with("no fix is heard"); };
+  if (std::ranges::any_of(of_devices, is_of_fixes))
+    std::erase_if(
+        silent, [&](const std::string& one) { return one.starts_with("no sample on " + topics.fix + ":"); });
+  return silent;
+}
+
+std::vector<std::string> all_findings(SensorListener& listener, const config::RobotConfig& robot,
+                                      const agent::PerceptionConfig& heard,
+                                      const std::vector<std::string>& of_devices) {
+  std::vector<std::string> findings = silent_topics(listener, heard.topics, of_devices);
+  std::ranges::move(listener.findings(), std::back_inserter(findings));
+  std::ranges::copy(of_devices, std::back_inserter(findings));
   std::ranges::move(machine_findings(machine_state(robot.agent.directory)), std::back_inserter(findings));
   if (listener.streams().scans() == 0) {
     const agent::SensorTopics& topics = robot.agent.perception.topics;
@@ -112,8 +127,7 @@ CommandResult<ExitCode> examine_sensors(const DoctorOptions& options, std::ostre
   const auto of_devices = listen_for(perception, **bus, listener, options.seconds, out);
   listener.streams().print(out);
   for (const std::string& mount : listener.mounts()) out << mount << '\n';
-  std::vector<std::string> findings = all_findings(listener, *robot);
-  std::ranges::copy(of_devices, std::back_inserter(findings));
+  const std::vector<std::string> findings = all_findings(listener, *robot, perception, of_devices);
   for (const std::string& note : listener.notes()) out << note << '\n';
   for (const std::string& finding : findings) out << "- " << finding << '\n';
   if (findings.empty()) out << "nothing found\n";

@@ -25,6 +25,9 @@ class SensorListener {
   /// Sentences on what is wrong with the samples that came since the last call, and on all that could not be
   /// decoded.
   std::vector<std::string> findings();
+  /// A sentence on each topic of IMU, GPS and wheels on which no message came, unless the configuration
+  /// switches its use off.
+  std::vector<std::string> silent_topics() const;
   /// Sentences on what was not checked, and why.
   std::vector<std::string> notes() const { return odometry_.notes(); }
   /// No work is under way.

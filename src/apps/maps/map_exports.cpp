@@ -15,12 +15,16 @@
 
 namespace fleetmap::apps {
 
-Result<std::string> export_points(StoredMap& map, const std::filesystem::path& out) {
+Result<std::string> export_points(StoredMap& map, const std::string& store,
+                                  const std::filesystem::path& out) {
   const std::array files{out};
   const output::MapPart main = output::map_parts(map.items.nodes, map.placement).main;
-  const auto written =
-      output::write_merged(map.store, main.T_map_node, map.recipe.merge, files,
-                           output::map_comments(map.store, main, map.recipe.origin, map.recipe.merge));
+  auto merge = output::tiled_map(map.store, main.T_map_node, map.recipe.merge);
+  if (!merge) return tl::unexpected(merge.error());
+  if (const Status some = output::require_points(merge->outline()); !some)
+    return failure(store + ": " + some.error().message);
+  const auto written = output::write_planned(
+      *merge, files, output::map_comments(map.store, main, map.recipe.origin, map.recipe.merge));
   if (!written) return tl::unexpected(written.error());
   name_unreadable(written->outline);
   return out.string() + ": " + std::to_string(written->points) + " points from " +

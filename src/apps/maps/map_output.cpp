@@ -63,7 +63,7 @@ CommandResult<ExitCode> write_map(const MapOptions& options, std::ostream& out) 
   auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
   if (const Status valid = map->recipe.merge.validate(); !valid) return exit_with(kUsage, valid.error());
-  if (!las && !rasters) return print_written(export_points(*map, options.out), out);
+  if (!las && !rasters) return print_written(export_points(*map, options.store, options.out), out);
   const Status written = rasters ? export_elevation(*map, options, out)
                                  : export_las(*map, options.store, options.out, options.las, out);
   return written ? CommandResult<ExitCode>(kDone) : exit_with(kFailed, written.error());

@@ -154,10 +154,15 @@ Result<std::unique_ptr<agent::ItemKeys>> keys_in(const std::optional<fs::path>& 
       std::make_shared<const trust::Credentials>(std::move(*credentials)));
 }
 
-/// Adds each store, and the origin of the first that has one.
+bool has_gps(const store::Store& store) {
+  return std::ranges::any_of(store.nodes(), [](const auto& entry) { return entry.second.G.has_value(); });
+}
+
+/// Adds each store, and the recipe of the first with GPS, whose origin is near it, else of the first.
 Status add_all(const std::vector<fs::path>& files, const exchange::ItemAuthenticator* keys,
                store::Store& into, MergedStore& merged) {
   std::optional<output::MapRecipe> recipe;
+  bool located = false;
   for (const fs::path& file : files) {
     if (const Status meant = check_store(file); !meant) return meant;
     auto store = store::Store::open_read_only(file);
@@ -166,7 +171,9 @@ Status add_all(const std::vector<fs::path>& files, const exchange::ItemAuthentic
     if (!added) return tl::unexpected(added.error());
     merged.unions.push_back(std::move(*added));
     merged.days.push_back(loop_closure::map_session_of(*store));
-    if (!recipe) recipe = output::recipe_or_default(*store);
+    if (recipe && (located || !has_gps(*store))) continue;
+    recipe = output::recipe_or_default(*store);
+    located = has_gps(*store);
   }
   if (!recipe || into.nodes().empty())
     return failure("the stores hold no node that may be used, so there is nothing to merge");

@@ -2,12 +2,34 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 #include "fleetmap/agent/navigator.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 constexpr Duration kScanSilence = std::chrono::seconds(5);
+/// Characters of a finding, which has its remedy as well, among a robot's problems.
+constexpr std::size_t kMaxProblemLength = 120;
+constexpr std::size_t kMaxFindings = 5;
+
+/// The finding up to its first clause that ends, or its first words.
+std::string in_short(const std::string& finding) {
+  std::string first = finding.substr(0, std::min(finding.find("; "), finding.find(". ")));
+  if (first.size() <= kMaxProblemLength) return first;
+  const std::size_t blank = first.rfind(' ', kMaxProblemLength);
+  first.resize(blank == std::string::npos ? kMaxProblemLength : blank);
+  return first + " ...";
+}
+
+void add_findings(const std::vector<std::string>& findings, std::vector<std::string>& problems) {
+  for (std::size_t k = 0; k < std::min(kMaxFindings, findings.size()); ++k)
+    problems.push_back(in_short(findings[k]));
+  if (findings.size() > kMaxFindings)
+    problems.push_back(
+        fmt::format("{} more findings of its sensors, which its log has", findings.size() - kMaxFindings));
+}
 
 void add_mission(const agent::Navigator& navigator, FleetState& fleet) {
   const planning::MissionExecutive& mission = navigator.executive();
@@ -31,6 +53,7 @@ std::vector<std::string> problems_of(const agent::Agent& agent, Stamp now) {
     problems.push_back(fmt::format("the odometry could not match {} scans", loam.lost));
   if (const auto dropped = perception.counters().dropped_scans; dropped > 0)
     problems.push_back(fmt::format("{} scans were dropped, since the odometry is too slow", dropped));
+  add_findings(perception.health().alarms(), problems);
   if (const auto failures = agent.store_failures(); failures > 0)
     problems.push_back(fmt::format("the disk refused {} writes", failures));
   return problems;

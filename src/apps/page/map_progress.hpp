@@ -12,7 +12,7 @@
 
 namespace fleetmap::apps {
 
-/// How fast the robots' maps become equal, by the nodes and submaps that their statuses count.
+/// The rate at which the robots' maps become equal, by the nodes and submaps that their statuses count.
 class MapProgress {
  public:
   static constexpr Duration kWindow = std::chrono::minutes(1);

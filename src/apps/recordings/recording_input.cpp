@@ -19,7 +19,8 @@ Result<Preparation> prepare(const std::filesystem::path& recording, const record
   auto mounts = agent::SensorMounts::of_recording(survey->frames, config);
   mounts.apply_to(config);
   config.gyro_in_degrees = std::move(survey->gyro_in_degrees);
-  return Preparation{survey->clock, mounts.summaries(), mounts.take_warnings()};
+  config.findings_before = mounts.take_warnings();
+  return Preparation{survey->clock, mounts.summaries(), config.findings_before};
 }
 
 void log_preparation(const Preparation& prepared, const std::string& source) {

@@ -17,7 +17,9 @@ class StreamSummary {
   /// A line a sensor.
   void print(std::ostream& out) const;
   std::size_t scans() const { return streams_.front().count; }
+  std::size_t imus() const { return streams_[1].count; }
   std::size_t fixes() const { return streams_[2].count; }
+  std::size_t wheels() const { return streams_[3].count; }
 
  private:
   struct Stream {

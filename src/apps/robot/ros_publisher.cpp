@@ -100,8 +100,9 @@ void RosPublisher::publish_diagnostics() {
   std::vector<monitor::SensorNow> sensors = rates_.add(agent_.perception(), bus_.now());
   if (!wanted(topics::diagnostics())) return;
   using LastHeard = std::map<LinkLog::Source, LinkLog::Heard>;
-  ros_output::RobotState state{agent_.config().id, bus_.now(), agent_.perception().health().findings(),
-                               std::move(sensors), {},         {}};
+  const sensor::SensorHealth& health = agent_.perception().health();
+  ros_output::RobotState state{agent_.config().id, bus_.now(), health.alarms(), std::move(sensors), {}, {},
+                               health.notes()};
   state.robots =
       robot_states(fleet_state(agent_, edges_.last_heard ? edges_.last_heard() : LastHeard(), bus_.now()));
   if (edges_.last_heard) state.lost_after_s = lost_after(agent_);

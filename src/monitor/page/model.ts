@@ -95,6 +95,7 @@ export interface State {
   logs: string[]; // robots whose registrations are known
   holdings: Holding[];
   pairs: Pair[];
+  loose_sessions: string[]; // clauses on sessions of a robot that nothing joins
   notes: string[];
   colours: ReadonlyMap<string, string>; // of robots; the page adds them (colours.ts)
 }

@@ -161,10 +161,11 @@ function mapsText(radio: Radio): string {
 
 function fleetMapsText(maps: FleetMaps): string {
   const without = maps.not_counted.length > 0 ? ` Without ${maps.not_counted.join(', ')}, lost or not heard yet.` : '';
-  if (maps.last === null) return `All robots hold equally many submaps.${without}`;
+  if (maps.last === null)
+    return `By their counts no robot holds fewer submaps; that they hold the same ones, counts do not show.${without}`;
   const left = maps.seconds_to_equal;
-  const when = left === null ? 'none arrive there now' : `at the present rates all maps are equal in ${ago(left)}`;
-  return `${maps.last} will be the last: it lacks ${maps.missing_submaps} submaps; ${when}.${without}`;
+  const when = left === null ? 'none arrive there now' : `at the present rates it has as many in ${ago(left)}`;
+  return `${maps.last} will be the last: it counts ${maps.missing_submaps} submaps fewer; ${when}.${without}`;
 }
 
 function table(title: string, columns: string[], rows: string[][], name: string): HTMLElement[] {

@@ -51,10 +51,17 @@ export class WhyPanel {
     const apart = state.pairs.filter((pair) => !pair.joined).length;
     const robots = state.robots.length,
       used = state.alignments.filter((one) => one.status === 'used').length;
-    if (robots < 2) return el('p', {class: 'headline'}, `One robot: ${used} alignments of its own path are in use.`);
+    const loose = state.loose_sessions.join(', ');
+    if (robots < 2) {
+      const but = loose === '' ? '' : ` But ${loose}.`;
+      return el('p', {class: 'headline'}, `One robot: ${used} alignments of its own path are in use.${but}`);
+    }
+    if (apart === 0 && loose !== '')
+      return el('p', {class: 'headline bad'}, `All ${robots} robots are joined, but not all sessions: ${loose}.`);
     if (apart === 0)
       return el('p', {class: 'headline good'}, `All ${robots} robots are joined: ${used} alignments are in use.`);
-    return el('p', {class: 'headline bad'}, `${apart} of ${state.pairs.length} pairs of robots are not joined.`);
+    const text = `${apart} of ${state.pairs.length} pairs of robots are not joined.`;
+    return el('p', {class: 'headline bad'}, loose === '' ? text : `${text} Besides, ${loose}.`);
   }
 
   private matrix(state: State): HTMLElement {

@@ -55,6 +55,8 @@ TEST_F(SensorExamination, WithoutAnyDriverSaysWhereItListened) {
   EXPECT_THAT(process.output(), HasSubstr("no scan on rt/points: is the driver on, with ROS_DOMAIN_ID=" +
                                           std::to_string(kDomain)));
   EXPECT_THAT(process.output(), HasSubstr("publish sensor_msgs/msg/PointCloud2 (topics.points_type)?"));
+  for (const char* topic : {"rt/imu", "rt/fix", "rt/wheel_odometry"})
+    EXPECT_THAT(process.output(), HasSubstr(std::string("- no sample on ") + topic + ": "));
 }
 
 /// A driver that publishes until it is destroyed.
@@ -140,6 +142,7 @@ TEST_F(SensorExamination, ThatGpsdIsMissingIsSaid) {
   EXPECT_EQ(process.wait(), 1) << process.output();
   EXPECT_THAT(process.output(), HasSubstr("- no fix is heard: 127.0.0.1:1: Connection refused; start it, or "
                                           "correct host and port\n"));
+  EXPECT_THAT(process.output(), Not(HasSubstr("no sample on rt/fleetmap/doctor/fix")));
 }
 
 TEST_F(SensorExamination, ThatGpsdHasNoReceiverIsSaid) {

@@ -67,6 +67,25 @@ TEST_F(SensorListenerTest, WhatCannotBeDecodedIsCountedByItsReason) {
   EXPECT_THAT(listener_.findings(), Contains(AllOf(HasSubstr(imu.name + ": "), HasSubstr(" (2 messages)"))));
 }
 
+TEST_F(SensorListenerTest, EachSilentTopicIsNamedWithItsRemedy) {
+  EXPECT_THAT(
+      listener_.silent_topics(),
+      ElementsAre(AllOf(HasSubstr("no sample on rt/imu: "), HasSubstr("(topics.imu)")),
+                  AllOf(HasSubstr("no sample on rt/fix: "), HasSubstr("gps.use: false")),
+                  AllOf(HasSubstr("no sample on rt/wheel_odometry: "), HasSubstr("odometry.use_wheel"))));
+  publish(sensor::Wheel{robot_.now(), 1.0, 0.0});
+  robot_.publish(sensor_topics(config_.topics)[1], Bytes{0, 1, 0, 0, 7});
+  network_->run_until(network_->now() + std::chrono::milliseconds(10));
+  EXPECT_THAT(listener_.silent_topics(), ElementsAre(HasSubstr("no sample on rt/fix: ")))
+      << "what cannot be decoded is a finding already";
+}
+
+TEST_F(SensorListenerTest, TopicsThatAreNotUsedMayBeSilent) {
+  agent::PerceptionConfig config;
+  config.odometry_uses_imu = config.odometry_uses_wheel = config.uses_gps = false;
+  EXPECT_THAT(SensorListener(config, robot_).silent_topics(), IsEmpty());
+}
+
 /// A robot as its drivers have it, heard for 12 s of a drive: (findings, notes).
 struct Heard {
   std::vector<std::string> findings, notes;

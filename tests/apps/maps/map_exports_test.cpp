@@ -38,12 +38,26 @@ class MapExports : public ::testing::Test {
 
 TEST_F(MapExports, PointsAreThoseThatTheSentenceNames) {
   StoredMap stored = map();
-  const auto written = export_points(stored, path("map.ply"));
+  const auto written = export_points(stored, "located.db", path("map.ply"));
   ASSERT_TRUE(written) << written.error().message;
   const auto cloud = cloud::read_cloud(path("map.ply")).value();
   EXPECT_GT(cloud.size(), 1000u);
   EXPECT_EQ(*written,
             path("map.ply").string() + ": " + std::to_string(cloud.size()) + " points from 6 submaps");
+}
+
+TEST_F(MapExports, AMapWithoutAPointIsRefusedWithItsCause) {
+  const auto file = path("empty.db");
+  {
+    auto store = store::Store::open(file, AgentId::parse("r1").value()).value();
+    ASSERT_TRUE(store.put_node(map().items.nodes.front()));
+  }
+  StoredMap empty = open_map(file, {testing::kSceneOrigin, 0.2, {}}).value();
+  const auto written = export_points(empty, "empty.db", path("map.ply"));
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message,
+              StartsWith("empty.db: the map has no point: no submap of its nodes is held"));
+  EXPECT_FALSE(std::filesystem::exists(path("map.ply")));
 }
 
 TEST_F(MapExports, TracksAreGpxOrGeoJsonByTheirName) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/driven_days.hpp"
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -60,6 +61,14 @@ TEST_F(MergedStoreTest, MergedStoresCanBeMergedAgain) {
   EXPECT_TRUE(merged.unions[1].contested.empty()) << "alignments of the two have names of their own";
   EXPECT_TRUE(merged.pairs[0].frames_shared);
   EXPECT_EQ(merged.placement.components.size(), 1u);
+}
+
+TEST_F(MergedStoreTest, TheOriginIsThatOfAStoreWithGpsInAnyOrder) {
+  days_.drive_without_gps("lost.db", 0);
+  drive("b.db", 1, {0.0, 0.0, 0.0});
+  const MergedStore merged = merge({path("lost.db"), path("b.db")});
+  EXPECT_NEAR(merged.recipe.origin.latitude, 39.0 * kDegree, 1e-3);
+  for (const auto& [id, T] : merged.placement.T_enu_node) EXPECT_LT(T.translation().norm(), 1000.0) << id.seq;
 }
 
 TEST_F(MergedStoreTest, DaysThatDoNotOverlapStayApartAndItIsKnownWhy) {

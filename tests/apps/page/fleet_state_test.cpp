@@ -28,5 +28,17 @@ TEST(FleetState, IsWhatTheAgentHasHeardAndWhatIsWrongWithIt) {
   EXPECT_THAT(fleet.problems.at(fleet.self), ::testing::ElementsAre(HasSubstr("no scan for 9 s")));
 }
 
+TEST(FleetState, FindingsOfTheSensorsAreProblemsWithoutTheirRemedies) {
+  const testing::TemporaryFolder folder;
+  testing::LappingRobot::Options options;
+  options.columns = 200;
+  options.folder = folder.path() / "r1";
+  options.clocks[static_cast<std::size_t>(sensor::Source::kImu)].ahead = -std::chrono::seconds(5);
+  testing::LappingRobot robot(options);
+  robot.run_for(12.0);
+  EXPECT_THAT(problems_of(robot.agent(), robot.bus().now()),
+              ::testing::Contains("imu: stamps are 5.00 s behind those of the other sensors"));
+}
+
 }  // namespace
 }  // namespace fleetmap::apps

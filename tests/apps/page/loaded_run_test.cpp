@@ -100,7 +100,7 @@ TEST_F(ShownRunTest, OfARobotThatIsLeftOutNothingIsShownButItsName) {
   add_robot("r1", 0);
   const AgentId r1 = AgentId::parse("r1").value(), r2 = AgentId::parse("r2").value();
   std::filesystem::create_directories(days_.path("run/r2"));
-  for (const std::string& folder : {"run/r1/", "run/r2/"}) {
+  for (const std::string folder : {"run/r1/", "run/r2/"}) {
     auto store = store::Store::open(days_.path(folder + "store.db"), folder == "run/r1/" ? r1 : r2).value();
     const Bytes submap(10, 1);
     ASSERT_TRUE(store.put_node_with_submap(testing::make_node(r2, 0, submap), submap));

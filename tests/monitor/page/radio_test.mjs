@@ -27,19 +27,22 @@ assert.match(textOf(root.querySelector('.headline')), /\(0 %\).*Nothing waits\./
 assert.match(textOf(root.querySelector('[data-of=maps]')), /none arrive now/);
 assert.equal(textOf(root.querySelector('[data-of=access]')), 'Only members of the fleet may join.');
 
-// The robot whose map will be complete last decides when all maps are equal.
+// The robot that will have as many submaps as the others last decides; counts do not show which these are.
 const mapsOf = (maps) => {
   panel.show(live([], {maps: {...live([]).maps, ...maps}}));
   return textOf(root.querySelector('[data-of=fleet-maps]'));
 };
-assert.equal(mapsOf({}), 'All robots hold equally many submaps.');
+assert.equal(
+  mapsOf({}),
+  'By their counts no robot holds fewer submaps; that they hold the same ones, counts do not show.',
+);
 assert.equal(
   mapsOf({last: 'r3', missing_submaps: 20, seconds_to_equal: 300}),
-  'r3 will be the last: it lacks 20 submaps; at the present rates all maps are equal in 5:00 min.',
+  'r3 will be the last: it counts 20 submaps fewer; at the present rates it has as many in 5:00 min.',
 );
 assert.equal(
   mapsOf({last: 'r3', missing_submaps: 20, seconds_to_equal: null, not_counted: ['r2', 'r4']}),
-  'r3 will be the last: it lacks 20 submaps; none arrive there now. Without r2, r4, lost or not heard yet.',
+  'r3 will be the last: it counts 20 submaps fewer; none arrive there now. Without r2, r4, lost or not heard yet.',
 );
 
 // A phone's sideways scroll and the focus are on elements that stay.

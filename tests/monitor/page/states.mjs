@@ -73,6 +73,7 @@ export const state = (more = {}) => ({
   logs: ['r1', 'r2'],
   holdings: [],
   pairs: [pair('r1', 'r2', false)],
+  loose_sessions: [],
   notes: [],
   colours: new Map([
     ['r1', '#2f7de1'],

@@ -98,6 +98,16 @@ assert.equal(minute.querySelector('.registration').getAttribute('data-index'), '
 minute.querySelector('#last-minute').click();
 assert.equal(rows().length, 4);
 
+// A session that nothing joins is named although one session of each robot is joined.
+const sessions = document.createElement('div');
+new WhyPanel(sessions, actions).show(
+  state({pairs: [pair('r1', 'r2', true)], loose_sessions: ["r2's second session is not joined"]}),
+);
+assert.match(
+  textOf(sessions.querySelector('.headline')),
+  /robots are joined, but not all sessions: r2's second session is not joined\.$/,
+);
+
 // The numbers are of the registrations that are known, if the log of one of the two is elsewhere.
 const page = state({logs: ['r2'], pairs: [pair('r1', 'r2', false, {attempts: 2, missing_logs: ['r1']})]});
 const other = document.createElement('div');
