@@ -253,7 +253,8 @@ function showLegend(picture: Picture): void {
     ),
   );
   const ramp = el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]);
-  byId('legend').replaceChildren(...robots, ...(shownBy ? linkKeys(shownBy) : []), ...(colour === 'robot' ? [] : [ramp]));
+  const links = shownBy ? linkKeys(shownBy) : [];
+  byId('legend').replaceChildren(...robots, ...links, ...(colour === 'robot' ? [] : [ramp]));
 }
 
 // Pointer and keys.

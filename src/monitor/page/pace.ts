@@ -19,9 +19,9 @@ const kMaxRest_ms = 1000;
 
 /**
  * Chooses the effort of a picture: all of it while the view stands still. While it moves and frames take longer than
- * 33 ms, first the shading is left out, then the finer pixels, the nodes and the page's marks on the map, then points;
- * each submap then shows its coarser ones. If drawing costs little, as with a graphics card, nothing changes. Pictures of what
- * arrives while the view stands still leave three quarters of the time to the rest of the page.
+ * 33 ms, first the shading is left out, then the finer pixels, the nodes and the page's marks on the map, then
+ * points; each submap then shows its coarser ones. If drawing costs little, as with a graphics card, nothing changes.
+ * Pictures of what arrives while the view stands still leave three quarters of the time to the rest of the page.
  */
 export class Pace {
   private level: number; // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
@@ -31,8 +31,8 @@ export class Pace {
   private restsUntil = 0; // ms
 
   /**
-   * `minShare`: share of the points that is drawn however long a frame takes. `slow`: frames will take long, so the first
-   * ones that move are drawn with less effort, too.
+   * `minShare`: share of the points that is drawn however long a frame takes. `slow`: frames will take long, so the
+   * first ones that move are drawn with less effort, too.
    */
   constructor(
     private full: Effort,

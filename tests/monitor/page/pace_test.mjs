@@ -25,7 +25,7 @@ assert.ok(!efforts[2].shaded && !efforts[2].detailed && efforts[2].ratio < 1 && 
 assert.ok(efforts.at(-1).share < 1 && efforts.at(-1).share >= 0.25, 'a picture of too few points shows nothing');
 assert.deepEqual(slow.effort((now += 200), false), full);
 
-// Where WebGL is known to be slow the first frame that moves has little effort; a still view and fast frames have all.
+// If WebGL is known to be slow, the first frame that moves has little effort; a still view and fast frames have all.
 const software = new Pace(full, 0.25, true);
 assert.deepEqual(software.effort((now += 100), false), full);
 assert.ok(!frames(software, 1, 16)[0].detailed);
