@@ -264,7 +264,9 @@ TEST(SensorHealth, FixesThatRiseAreCorrectedAndOnesThatEndAreNoted) {
       fix = {.stamp = at(t), .position = {0.7, -0.1, t < 20.0 ? 600.0 : 640.0}};
       fix.covariance.setIdentity();
       EXPECT_TRUE(health.check(fix));
-      if (t < 20.0 || t > 26.0) EXPECT_NEAR(fix.position.altitude, 600.0, 1e-6) << t;
+      if (t < 20.0 || t > 26.0) {
+        EXPECT_NEAR(fix.position.altitude, 600.0, 1e-6) << t;
+      }
     }
     health.check_scan(at(t), std::chrono::milliseconds(98));
     health.check_motion(at(t), Pose::Identity());
