@@ -11,8 +11,8 @@ namespace fleetmap::sensor {
 namespace {
 
 constexpr std::size_t kMaxFixesWaiting = 100;
-constexpr double kUnknownSigma = 3.0;  // m
-constexpr double kMinJump = 10.0;      // m, more than its error changes from fix to fix
+constexpr double kUnknownSigma = 3.0, kUnknownVerticalSigma = 4.0;  // m
+constexpr double kMinJump = 10.0;  // m, more than its error changes from fix to fix
 constexpr double kSigmas = 5.0;
 constexpr double kSpacing = 2.0;  // m between places of the track
 constexpr std::size_t kMinTrack = 10, kMaxTrack = 100;
@@ -27,6 +27,11 @@ constexpr int kContradictions = 2;
 double sigma_of(const Fix& fix) {
   const double variance = 0.5 * (fix.covariance(0, 0) + fix.covariance(1, 1));
   return std::isfinite(variance) && variance > 0.0 ? std::sqrt(variance) : kUnknownSigma;
+}
+
+double vertical_sigma_of(const Fix& fix) {
+  const double variance = fix.covariance(2, 2);
+  return std::isfinite(variance) && variance > 0.0 ? std::sqrt(variance) : kUnknownVerticalSigma;
 }
 
 /// Misfits of two tracks.
@@ -59,6 +64,7 @@ Fit fit_of(const Eigen::Matrix2Xd& gps, const Eigen::Matrix2Xd& odom) {
 
 void GpsAgreement::interrupt() {
   last_.reset();
+  heights_.interrupt();
   last_matched_.reset();
   track_.clear();
   waiting_.clear();
@@ -71,7 +77,7 @@ void GpsAgreement::add(const Fix& fix) {
 }
 
 void GpsAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
-  const Instant now{stamp, T_odom_base.translation().head<2>()};
+  const Instant now{stamp, T_odom_base.translation()};
   const std::optional<Instant> before = std::exchange(last_, now);
   while (!waiting_.empty() && waiting_.front().stamp <= stamp) {
     const Fix fix = waiting_.front();
@@ -82,12 +88,14 @@ void GpsAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
   }
 }
 
-void GpsAgreement::match(const Fix& fix, const Eigen::Vector2d& odom) {
+void GpsAgreement::match(const Fix& fix, const Eigen::Vector3d& odom) {
   if (!frame_) frame_.emplace(fix.position);
-  const MatchedFix matched{frame_->to_enu(fix.position).head<2>(), odom, sigma_of(fix)};
+  const MatchedFix matched{frame_->to_enu(fix.position).head<2>(), odom.head<2>(), sigma_of(fix)};
+  heights_.add({fix.stamp, fix.position.altitude, vertical_sigma_of(fix), odom});
+  if (auto finding = heights_.take_finding()) findings_.push_back(std::move(*finding));
   check_jump(matched);
   last_matched_ = matched;
-  const double step = track_.empty() ? kSpacing : (odom - track_.back().odom).norm();
+  const double step = track_.empty() ? kSpacing : (matched.odom - track_.back().odom).norm();
   if (step < kSpacing) return;
   track_.push_back(matched);
   if (track_.size() > kMaxTrack) track_.pop_front();

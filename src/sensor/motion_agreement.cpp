@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fleetmap/core/text_list.hpp"
+#include "fleetmap/core/utc.hpp"
 #include "fleetmap/geometry/degree.hpp"
 #include "short_number.hpp"
 
@@ -24,9 +25,12 @@ constexpr double kOtherAxis = 0.6;               // of the turn, on an axis that
 constexpr double kWheelTurnsCheckedAfter = 2.0;  // rad
 constexpr Duration kWheelStep = std::chrono::milliseconds(150);
 constexpr double kNothing = 0.2;  // of the motion
-// A lag that is one: as large, and leaving so little of the misfit.
-constexpr double kMinLag = 0.05, kMisfitLeft = 0.5;  // s
-constexpr std::size_t kStampSteps = 25;
+// Windows after the first: slip, mud and turns on the spot last for some metres.
+constexpr std::size_t kWindowsInARow = 3;
+constexpr double kCheckedAgainAfter = 5.0;  // m
+constexpr double kLaterSpeedScale = 1.5, kLaterLidarYaw = 30.0 * kDegree;
+constexpr double kLaterGyroScale = 2.0, kLaterWheelTurnScale = 4.0;
+constexpr Duration kIntegralsKept = std::chrono::seconds(2);
 
 bool agrees(double slope, double scale) { return slope > 1.0 / scale && slope < scale; }
 
@@ -39,10 +43,24 @@ const char* wheel_unit_of(double scale) {
 
 }  // namespace
 
+bool MotionAgreement::Windows::confirm(bool contradicts, Stamp from) {
+  const bool first = count_++ == 0;
+  if (!contradicts) in_a_row_ = 0;
+  if (!contradicts || found_) return false;
+  if (++in_a_row_ == 1) since_ = from;
+  found_ = first || in_a_row_ >= kWindowsInARow;
+  return found_;
+}
+
+std::string MotionAgreement::since(const Windows& windows) const {
+  return " since " + to_utc(windows.since());
+}
+
 void MotionAgreement::add(const Imu& imu) {
   gyro_.add(imu.stamp, q_base_imu_ * imu.angular_velocity);
   // The one that comes later has both.
   if (wheels_.last() && *wheels_.last() <= imu.stamp) compare_gyro_and_wheels(*wheels_.last());
+  compare_gyro_and_wheel_stamps(imu.stamp);
 }
 
 void MotionAgreement::add(const Wheel& wheel) {
@@ -61,7 +79,7 @@ void MotionAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
   const auto passed = [](const RunningIntegral& sensor, Stamp at) {
     return !sensor.last() || *sensor.last() >= at;
   };
-  const Duration reach = from_seconds((kLags + 1) * kLagStep);
+  const Duration reach = TurnLag::reach();
   while (!waiting_.empty() &&
          ((passed(gyro_, waiting_.front().to + reach) && passed(wheels_, waiting_.front().to)) ||
           waiting_.size() > kMaxMotionsWaiting)) {
@@ -75,23 +93,35 @@ void MotionAgreement::compare(const Step& step) {
   if (std::abs(step.turned) >= kMinTurn) lidar_turned_ += std::abs(step.turned);
   compare_drive(step);
   compare_turn(step);
-  compare_stamps(step);
+  lidar_lag_.add(gyro_, step.from, step.to, step.turned);
+  if (const auto found = lidar_lag_.take_found()) report_lag(*found, "the LiDAR");
 }
 
 void MotionAgreement::compare_drive(const Step& step) {
   const auto wheels = wheels_.between(step.from, step.to);
-  if (drive_checked_ || !wheels || step.moved.norm() < kMinMove) return;
+  if (drive_windows_.found() || !wheels || step.moved.norm() < kMinMove) return;
+  if (driven_ == 0.0) drive_from_ = step.from;
   driven_ += step.moved.norm();
   drive_squares_ += step.moved.squaredNorm();
   drive_products_ += wheels->x() * step.moved;
-  if (driven_ > kCheckedAfter) check_drive();
+  if (driven_ > (drive_windows_.any() ? kCheckedAgainAfter : kCheckedAfter)) check_drive();
 }
 
 void MotionAgreement::check_drive() {
-  drive_checked_ = true;
   const Eigen::Vector2d slope = drive_products_ / drive_squares_;
+  const bool first = !drive_windows_.any();
+  const double yaw = std::abs(std::atan2(slope.y(), slope.x()));
+  const bool contradicts = yaw > (first ? kLidarYaw : kLaterLidarYaw) ||
+                           !agrees(slope.norm(), first ? kSpeedScale : kLaterSpeedScale);
+  if (drive_windows_.confirm(contradicts, drive_from_)) report_drive(slope, first);
+  driven_ = drive_squares_ = 0.0;
+  drive_products_.setZero();
+}
+
+void MotionAgreement::report_drive(const Eigen::Vector2d& slope, bool first) {
   const double scale = slope.norm();
-  const std::string since = " over the first " + short_number(driven_) + " m";
+  const std::string since =
+      first ? " over the first " + short_number(driven_) + " m" : this->since(drive_windows_);
   if (scale < kNothing) {
     findings_.push_back("wheel odometry: it stands while the LiDAR moves" + since +
                         ": the twist is not filled, or the topic is dead. Correct the driver, or set "
@@ -117,7 +147,8 @@ void MotionAgreement::check_drive() {
 }
 
 void MotionAgreement::compare_turn(const Step& step) {
-  if (turns_checked_ || std::abs(step.turned) < kMinTurn) return;
+  if (turn_windows_.found() || std::abs(step.turned) < kMinTurn) return;
+  if (gyro_turned_ == 0.0 && wheel_turned_ == 0.0) turns_from_ = step.from;
   if (const auto gyro = gyro_.between(step.from, step.to)) {
     gyro_turned_ += std::abs(step.turned);
     gyro_squares_ += step.turned * step.turned;
@@ -133,35 +164,48 @@ void MotionAgreement::compare_turn(const Step& step) {
 }
 
 void MotionAgreement::check_turns() {
-  turns_checked_ = true;
-  const bool with_gyro = gyro_turned_ > 0.5 * kTurnsCheckedAfter;
-  const bool with_wheels = wheel_turned_ > 0.5 * kTurnsCheckedAfter;
-  const double gyro = with_gyro ? gyro_products_.z() / gyro_squares_ : 0.0;
-  const double wheels = with_wheels ? wheel_products_ / wheel_squares_ : 0.0;
-  if (with_gyro && with_wheels && gyro < -kNothing && wheels < -kNothing) {
+  std::optional<Eigen::Vector3d> gyro;
+  std::optional<double> wheels;
+  if (gyro_turned_ > 0.5 * kTurnsCheckedAfter) gyro = gyro_products_ / gyro_squares_;
+  if (wheel_turned_ > 0.5 * kTurnsCheckedAfter) wheels = wheel_products_ / wheel_squares_;
+  const bool first = !turn_windows_.any();
+  const bool contradicts = (gyro && !agrees(gyro->z(), first ? kGyroScale : kLaterGyroScale)) ||
+                           (wheels && !agrees(*wheels, first ? kWheelTurnScale : kLaterWheelTurnScale));
+  if (turn_windows_.confirm(contradicts, turns_from_)) {
+    const std::size_t before = findings_.size();
+    report_turns(gyro, wheels);
+    for (std::size_t k = before; k < findings_.size() && !first; ++k)
+      findings_[k] += ". It does so" + since(turn_windows_);
+  }
+  gyro_turned_ = gyro_squares_ = wheel_turned_ = wheel_squares_ = wheel_products_ = 0.0;
+  gyro_products_.setZero();
+}
+
+void MotionAgreement::report_turns(const std::optional<Eigen::Vector3d>& gyro,
+                                   const std::optional<double>& wheels) {
+  if (gyro && wheels && gyro->z() < -kNothing && *wheels < -kNothing) {
     findings_.emplace_back(
         "LiDAR: it turns right where gyro and wheels turn left: its points are mirrored (left-handed axes, "
-        "or a "
-        "device that turns the other way), or it is mounted upside down and lidar.rotation_rpy_deg does not "
-        "say so");
+        "or a device that turns the other way), or it is mounted upside down and lidar.rotation_rpy_deg does "
+        "not say so");
     return;
   }
-  if (with_wheels && !agrees(wheels, kWheelTurnScale)) {
-    const std::string how = wheels < -kNothing ? "the sign of twist.angular.z is wrong"
-                            : wheels < kNothing
+  if (wheels && !agrees(*wheels, kWheelTurnScale)) {
+    const std::string how = *wheels < -kNothing ? "the sign of twist.angular.z is wrong"
+                            : *wheels < kNothing
                                 ? "twist.angular.z is not filled: let the driver set its variance "
                                   "(twist.covariance[35]) to -1"
                                 : "the unit or the track width is wrong";
-    findings_.push_back("wheel odometry: in turns its turn rate is " + short_number(wheels) +
+    findings_.push_back("wheel odometry: in turns its turn rate is " + short_number(*wheels) +
                         " times that of the LiDAR: " + how);
   }
-  if (!with_gyro) return;
-  const bool wheels_agree = with_wheels && agrees(wheels, kWheelTurnScale);
-  check_gyro(gyro_products_ / gyro_squares_, wheels_agree ? "LiDAR and wheels" : "the LiDAR");
+  if (!gyro) return;
+  const bool wheels_agree = wheels && agrees(*wheels, kWheelTurnScale);
+  check_gyro(*gyro, wheels_agree ? "LiDAR and wheels" : "the LiDAR");
 }
 
 void MotionAgreement::compare_gyro_and_wheels(Stamp to) {
-  if (turns_checked_) return;
+  if (turn_windows_.any()) return;
   if (!compared_to_ || to - *compared_to_ > kLongestStep) compared_to_ = to;
   if (to - *compared_to_ < kWheelStep) return;
   const Stamp from = *compared_to_;
@@ -174,9 +218,8 @@ void MotionAgreement::compare_gyro_and_wheels(Stamp to) {
   wheels_squares_ += wheels->y() * wheels->y();
   gyro_by_wheels_ += wheels->y() * *gyro;
   if (wheels_turned_ < kWheelTurnsCheckedAfter) return;
-  turns_checked_ = true;
   const Eigen::Vector3d slope = gyro_by_wheels_ / wheels_squares_;
-  if (!agrees(slope.z(), kWheelTurnScale)) check_gyro(slope, "the wheels");
+  if (turn_windows_.confirm(!agrees(slope.z(), kWheelTurnScale), from)) check_gyro(slope, "the wheels");
 }
 
 void MotionAgreement::check_gyro(const Eigen::Vector3d& slope, const std::string& others) {
@@ -196,42 +239,37 @@ void MotionAgreement::check_gyro(const Eigen::Vector3d& slope, const std::string
   }
 }
 
-void MotionAgreement::compare_stamps(const Step& step) {
-  if (stamps_checked_) return;
-  std::array<double, 2 * kLags + 1> misfits{};
-  for (int k = -kLags; k <= kLags; ++k) {
-    const Duration lag = from_seconds(k * kLagStep);
-    const auto gyro = gyro_.between(step.from + lag, step.to + lag);
-    if (!gyro) return;
-    const double misfit = gyro->z() - step.turned;
-    misfits.at(static_cast<std::size_t>(k + kLags)) = misfit * misfit;
-  }
-  for (std::size_t k = 0; k < misfits.size(); ++k) misfits_.at(k) += misfits.at(k);
-  // A lag shows where the turn rate changes; in steady turns and at standstill it does not.
-  const auto [smallest, largest] = std::ranges::minmax_element(misfits);
-  misfit_steps_ += *largest - *smallest > kMinTurn * kMinTurn / 4.0 ? 1 : 0;
-  if (misfit_steps_ >= kStampSteps) check_stamps();
+void MotionAgreement::compare_gyro_and_wheel_stamps(Stamp imu) {
+  if (!wheels_.last()) return;
+  const Stamp end = std::min(*wheels_.last(), imu - TurnLag::reach());
+  if (!stamps_compared_to_ || end < *stamps_compared_to_ || end - *stamps_compared_to_ > kIntegralsKept)
+    stamps_compared_to_ = end;
+  const Stamp from = *stamps_compared_to_, to = from + kWheelStep;
+  if (to > end) return;
+  stamps_compared_to_ = to;
+  const auto wheels = wheels_.between(from, to);
+  if (!wheels || wheels->z() < 0.99 * to_seconds(to - from)) return;
+  wheel_lag_.add(gyro_, from, to, wheels->y());
+  if (const auto found = wheel_lag_.take_found()) report_lag(*found, "the wheels");
 }
 
-void MotionAgreement::check_stamps() {
-  stamps_checked_ = true;
-  const auto best = std::ranges::min_element(misfits_);
-  const double lag = (static_cast<double>(best - misfits_.begin()) - kLags) * kLagStep;
-  if (std::abs(lag) < kMinLag || *best > kMisfitLeft * misfits_.at(kLags)) return;
+void MotionAgreement::report_lag(const TurnLag::Found& found, const std::string& other) {
+  if (std::exchange(lag_reported_, true)) return;
   findings_.push_back(
-      "clocks: the gyro turns " + short_number(1e3 * std::abs(lag)) + " ms " +
-      (lag > 0.0 ? "after" : "before") +
-      " the LiDAR, by the stamps: one of the two stamps its samples wrongly (at the end of a sweep "
-      "instead of its start, when they arrive, or by a clock of its own). Correct the driver, or "
-      "synchronise both (PTP)");
+      "clocks: the gyro turns " + short_number(1e3 * std::abs(found.lag)) + " ms " +
+      (found.lag > 0.0 ? "after " : "before ") + other + ", by the stamps" +
+      (found.at_first ? "" : ", since " + to_utc(found.since)) +
+      ": one of the two stamps its samples wrongly (at the end of a sweep instead of its "
+      "start, when they arrive, or by a clock of its own). Correct the driver, or synchronise "
+      "both (PTP)");
 }
 
 std::optional<std::string> MotionAgreement::not_compared() const {
   if (!gyro_.last() && !wheels_.last()) return "neither the IMU nor wheels are heard";
   std::string missing;
-  if (wheels_.last() && !drive_checked_) append_to_list(missing, "the speed of the wheels");
-  if (!turns_checked_) append_to_list(missing, "turns");
-  if (gyro_.last() && !stamps_checked_) append_to_list(missing, "stamps");
+  if (wheels_.last() && !drive_windows_.any()) append_to_list(missing, "the speed of the wheels");
+  if (!turn_windows_.any()) append_to_list(missing, "turns");
+  if (gyro_.last() && !lidar_lag_.first_checked()) append_to_list(missing, "stamps");
   if (missing.empty()) return std::nullopt;
   return missing + ": by the LiDAR the robot drove " + short_number(lidar_drove_) + " m and turned by " +
          short_number(lidar_turned_ / kDegree) + " deg. Drive 10 m and two turns of 90 deg";

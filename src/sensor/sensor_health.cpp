@@ -40,6 +40,9 @@ constexpr std::size_t kGrounds = 40;
 constexpr Duration kImuGap = std::chrono::milliseconds(250), kPauseOfImu = std::chrono::seconds(10);
 constexpr Duration kMinGapObservation = std::chrono::seconds(10);
 constexpr double kGapShare = 0.1;
+/// The drive goes on by steps, since stamps may jump.
+constexpr double kLongestStepOfTime = 1.0;    // s
+constexpr double kMovedWhenLost = 0.1;        // m a scan: a robot whose odometry is lost drives
 constexpr double kSteepest = 25.0 * kDegree;  // slope on which a robot starts
 constexpr double kLevel = 5.0 * kDegree;      // tilt of the ground in base_link
 
@@ -114,6 +117,7 @@ std::vector<std::string> SensorHealth::take_warnings() {
 
 bool SensorHealth::check(Imu& imu) {
   check_gaps(imu.stamp);
+  if (!last_scan_) pass_time(imu.stamp, 0.0);
   correct_force(imu);
   check_gravity(imu);
   if (!correct_rate(imu)) return refuse();
@@ -128,13 +132,34 @@ void SensorHealth::set_imu_rotation(const Eigen::Quaterniond& q_base_imu) {
 
 void SensorHealth::check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base) {
   if (!T_odom_base) {
+    pass_time(stamp, kMovedWhenLost);
     motion_.interrupt();
     return gps_.interrupt();
   }
+  const Eigen::Vector3d position = T_odom_base->translation();
+  pass_time(stamp, (position - std::exchange(last_position_, position).value_or(position)).norm());
   motion_.add_motion(stamp, *T_odom_base);
   gps_.add_motion(stamp, *T_odom_base);
   for (std::string& finding : motion_.take_findings()) state(std::move(finding));
   for (std::string& finding : gps_.take_findings()) state(std::move(finding));
+}
+
+void SensorHealth::pass_time(Stamp stamp, double moved) {
+  const std::optional<Stamp> before = std::exchange(time_passed_to_, stamp);
+  if (!before || stamp <= *before) return;
+  const double seconds = std::min(to_seconds(stamp - *before), kLongestStepOfTime);
+  for (StreamSilence* silence : {&fix_silence_, &wheel_silence_}) {
+    silence->pass(seconds, moved);
+    if (auto finding = silence->take_finding()) state(std::move(*finding));
+  }
+}
+
+std::vector<std::string> SensorHealth::gaps() const {
+  std::vector<std::string> gaps;
+  for (const StreamSilence* silence : {&fix_silence_, &wheel_silence_}) {
+    if (auto note = silence->note()) gaps.push_back(std::move(*note));
+  }
+  return gaps;
 }
 
 void SensorHealth::check_gaps(Stamp stamp) {
@@ -148,8 +173,7 @@ void SensorHealth::check_gaps(Stamp stamp) {
   imu_gaps_reported_ = true;
   state("IMU: samples are missing: " + short_number(100.0 * imu_gaps_ / heard) +
         " % of the time is in gaps of more than 0.25 s, in which the motion is not measured. Check its "
-        "cable, the "
-        "load of the computer and the rate of the driver (100 Hz)");
+        "cable, the load of the computer and the rate of the driver (100 Hz)");
 }
 
 void SensorHealth::check_gravity(const Imu& imu) {
@@ -162,8 +186,7 @@ void SensorHealth::check_gravity(const Imu& imu) {
   const Eigen::Vector3d turn = rpy_from_rotation(levelling(up)) / kDegree;
   state("IMU: gravity is " + short_number(tilt / kDegree) +
         " deg off base_link's z at the start, so the IMU is not mounted as imu.rotation_rpy_deg says: it "
-        "should be "
-        "turned by [" +
+        "should be turned by [" +
         short_number(turn.x()) + ", " + short_number(turn.y()) + ", 0] deg more; or its axes are swapped");
 }
 
@@ -242,8 +265,10 @@ bool SensorHealth::correct_rate(Imu& imu) {
 
 bool SensorHealth::check(Wheel& wheel) {
   const bool sound = correct_twist(wheel) || refuse();
-  if (sound) motion_.add(wheel);
-  return sound;
+  if (!sound) return false;
+  wheel_silence_.add(wheel.stamp);
+  motion_.add(wheel);
+  return true;
 }
 
 bool SensorHealth::correct_twist(Wheel& wheel) {
@@ -265,19 +290,20 @@ bool SensorHealth::correct_twist(Wheel& wheel) {
   return std::abs(wheel.forward_speed) < kMaxSpeed;
 }
 
-bool SensorHealth::check(const Fix& fix) {
+bool SensorHealth::check(Fix& fix) {
   const GeoPoint& p = fix.position;
   const bool somewhere =
       std::isfinite(p.latitude) && std::isfinite(p.longitude) && (p.latitude != 0.0 || p.longitude != 0.0);
   if (std::isfinite(p.latitude) && !somewhere && fix.valid && !std::exchange(no_place_, true))
     state(
         "GPS: fixes are at latitude 0, longitude 0: the receiver reports them before it knows its place; "
-        "they are "
-        "refused. Let its driver set status -1");
+        "they are refused. Let its driver set status -1");
   if (!somewhere && fix.valid) return refuse();
   const bool flat = somewhere && !std::isfinite(p.altitude);
   if (!flat) {
+    if (fix.valid) fix_silence_.add(fix.stamp);
     gps_.add(fix);
+    fix.position.altitude -= gps_.height_correction();
     return true;
   }
   if (!std::exchange(no_altitude_, true))

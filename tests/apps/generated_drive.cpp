@@ -49,13 +49,17 @@ void GeneratedDrive::SetUpTestSuite() {
   auto fleet = write_generated_fleet(folder_->path() / "bags");
   ASSERT_TRUE(fleet) << fleet.error().message;
   fleet_ = std::move(*fleet);
-  auto reader = recording::open(folder_->path() / "bags/r1");
+  read_recording(folder_->path() / "bags/r1", good_);
+}
+
+void GeneratedDrive::read_recording(const std::filesystem::path& bag, Recording& recording) {
+  auto reader = recording::open(bag);
   ASSERT_TRUE(reader) << reader.error().message;
   for (;;) {
     auto next = (*reader)->next();
     ASSERT_TRUE(next) << next.error().message;
     if (!*next) break;
-    good_.push_back({std::move(**next), *(*reader)->recorded()});
+    recording.push_back({std::move(**next), *(*reader)->recorded()});
   }
 }
 

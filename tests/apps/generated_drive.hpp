@@ -31,6 +31,7 @@ class GeneratedDrive : public ::testing::Test {
   static void SetUpTestSuite();
   static void TearDownTestSuite();
 
+  static void read_recording(const std::filesystem::path& bag, Recording& recording);
   /// The bag's folder.
   static std::filesystem::path write(const std::string& name, const Recording& recording,
                                      const std::vector<sensor::FrameTransform>& frames = {});

@@ -163,6 +163,12 @@ std::vector<Spoilt> of_wheels() {
          wheel = {wheel.stamp, 0.0, std::nullopt};
        }),
        "it stands while the LiDAR moves"},
+      {"wheels_3_times_as_fast_from_12_s", over_time<Wheel>([](Wheel& wheel, double t) {
+         if (t > 12.0) wheel.forward_speed *= 3.0;
+       }),
+       "times as fast as the LiDAR since"},
+      corrected({"wheels_end_after_12_s", keep_if<Wheel>([](std::size_t, double t) { return t < 12.0; }),
+                 "wheel odometry: no sample since 12 s"}),
       {"wheels_turn_the_other_way",
        each<Wheel>([](Wheel& wheel) { wheel.yaw_rate = -wheel.yaw_rate.value_or(0.0); }),
        "the sign of twist.angular.z is wrong"},
@@ -227,6 +233,12 @@ std::vector<Spoilt> of_gps_and_all() {
          if (t > 15.0) fix.position.latitude += 50.0 / kEarthRadius;
        }),
        "GPS: it jumped by"},
+      {"fixes_rise_by_40_m", over_time<Fix>([](Fix& fix, double t) {
+         if (t > 12.0) fix.position.altitude += 40.0;
+       }),
+       "GPS: its height jumped by", true, true},
+      {"fixes_end_after_12_s", keep_if<Fix>([](std::size_t, double t) { return t < 12.0; }),
+       "GPS: no fix since 12 s", true, true},
       {"fixes_stand",
        [](Recording& recording) {
          std::optional<GeoPoint> first;

@@ -92,6 +92,22 @@ TEST_F(SpoiltRecording, InspectNamesTheCauseAndFails) {
   EXPECT_THAT(inspect.output(), HasSubstr("km/h"));
 }
 
+/// The first check of the stamps is over long before.
+TEST_F(SpoiltRecording, AnImuThatIsLateFromAMomentOnIsNamed) {
+  ASSERT_TRUE(testing::write_winding_drive(folder_->path() / "winding"));
+  Recording winding;
+  read_recording(folder_->path() / "winding/r1", winding);
+  EXPECT_THAT(odometry("sound", winding).output, Not(HasSubstr(" warning ")));
+  const Stamp start = winding.front().received;
+  for (Recorded& one : winding) {
+    auto* imu = std::get_if<sensor::Imu>(&one.sample);
+    if (imu != nullptr && to_seconds(one.received - start) > 24.0)
+      imu->stamp -= std::chrono::milliseconds(250);
+  }
+  EXPECT_THAT(odometry("late", winding).output,
+              AllOf(HasSubstr("the gyro turns"), HasSubstr("stamps, since")));
+}
+
 /// A LiDAR that is pitched, on a mast, as /tf_static says.
 TEST_F(SpoiltRecording, AMountInTheFramesIsUsed) {
   const Eigen::Quaterniond pitched(rotation_from_rpy(0.0, 20.0 * kDegree, 0.0));

@@ -57,6 +57,11 @@ TEST(GpsAgreement, AJumpIsNamedOnce) {
               ::testing::Contains(HasSubstr("GPS: it jumped by")));
 }
 
+TEST(GpsAgreement, AStepOfItsHeightIsNamed) {
+  EXPECT_THAT(findings([](double t, GeoPoint& p) { p.altitude += t > 30.0 ? 40.0 : 0.0; }),
+              ElementsAre(HasSubstr("GPS: its height jumped by 40 m")));
+}
+
 TEST(GpsAgreement, OneThatStandsIsNamed) {
   EXPECT_THAT(findings([](double, GeoPoint& p) { p = geo_point_from_degrees(48.2, 11.6, 500.0); }),
               ElementsAre(HasSubstr("misses the way")));

@@ -22,10 +22,12 @@ struct SwayingRobot {
   Eigen::Matrix3d R_imu_base = Eigen::Matrix3d::Identity();  ///< that the driver does not know of
   double gyro_scale = 1.0, gyro_late = 0.0;                  ///< late: s
   double lidar_yaw = 0.0, lidar_turn_sign = 1.0;
+  double fault_from = 0.0;  ///< s; all is right before
   bool with_gyro = true, with_wheels = true, lost = false;
 
   static double rate(double t) { return 0.4 * std::sin(0.9 * t); }
 
+  double fault_until = 1e9;  ///< s, of the wheels' speed
   double seconds = 60.0, speed = 1.0;
 
   std::vector<std::string> findings() const { return driven().take_findings(); }
@@ -35,14 +37,17 @@ struct SwayingRobot {
     const Pose T_base_wrong = make_pose(rotation_from_rpy(0.0, 0.0, lidar_yaw), Eigen::Vector3d::Zero());
     for (int k = 0; k < static_cast<int>(100.0 * seconds); ++k) {
       const double t = 0.01 * k;
+      const bool faulty = t >= fault_from;
       Imu imu;
-      imu.stamp = at(t + gyro_late);
-      imu.angular_velocity = gyro_scale * (R_imu_base * Eigen::Vector3d(0.0, 0.0, rate(t)));
+      imu.stamp = at(faulty ? t + gyro_late : t);
+      imu.angular_velocity = Eigen::Vector3d(0.0, 0.0, rate(t));
+      if (faulty) imu.angular_velocity = gyro_scale * (R_imu_base * imu.angular_velocity);
       if (with_gyro) agreement.add(imu);
       if (with_wheels && k % 5 == 0)
-        agreement.add(Wheel{
-            .stamp = at(t), .forward_speed = wheel_scale * speed, .yaw_rate = wheel_turn_scale * rate(t)});
-      if (lost) agreement.interrupt();
+        agreement.add(Wheel{.stamp = at(t),
+                            .forward_speed = (faulty && t < fault_until ? wheel_scale : 1.0) * speed,
+                            .yaw_rate = (faulty ? wheel_turn_scale : 1.0) * rate(t)});
+      if (lost && faulty) agreement.interrupt();
       if (k % 10 == 0) agreement.add_motion(at(t), T_base_wrong.inverse() * T * T_base_wrong);
       T = T * make_pose(rotation_from_rpy(0.0, 0.0, lidar_turn_sign * 0.01 * rate(t)),
                         Eigen::Vector3d(0.01 * speed, 0.0, 0.0));
@@ -125,6 +130,39 @@ TEST(MotionAgreement, StampsThatAreWrongByATenthOfASecondAreNamed) {
   EXPECT_THAT((SwayingRobot{.gyro_late = -0.2}.findings()),
               ElementsAre(HasSubstr("200 ms before the LiDAR")));
   EXPECT_THAT((SwayingRobot{.gyro_late = 0.02}.findings()), IsEmpty());
+}
+
+TEST(MotionAgreement, FaultsThatBeginAfterTheFirstCheckAreNamedOnceWithTheirTime) {
+  const std::string since =
+      "since 2023-11-14T22:13:(39|4[0-9])";  // the window of the 22nd second or the next
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 3.0, .fault_from = 22.0}.findings()),
+              ElementsAre(ContainsRegex("wheel odometry: it is 3 times as fast as the LiDAR " + since)));
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 0.0, .fault_from = 22.0}.findings()),
+              ElementsAre(ContainsRegex("it stands while the LiDAR moves " + since)));
+  EXPECT_THAT((SwayingRobot{.gyro_scale = 0.0, .fault_from = 22.0}.findings()),
+              ElementsAre(ContainsRegex("its gyro turns 0 times as fast as .* " + since)));
+  EXPECT_THAT((SwayingRobot{.wheel_turn_scale = -1.0, .fault_from = 22.0}.findings()),
+              ElementsAre(ContainsRegex("sign of twist.angular.z is wrong.* " + since)));
+}
+
+TEST(MotionAgreement, WheelsThatSlipForSomeMetresAreNotNamed) {
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 4.0, .fault_from = 22.0, .fault_until = 30.0}.findings()),
+              IsEmpty());
+  EXPECT_THAT((SwayingRobot{.wheel_scale = 1.4, .fault_from = 22.0}.findings()), IsEmpty())
+      << "a slope of mud";
+}
+
+TEST(MotionAgreement, StampsThatAreWrongFromAMomentOnAreNamedAlsoWhereTheOdometryIsLost) {
+  for (const double late : {-0.25, 0.25}) {
+    const std::string text = late > 0.0 ? "250 ms after " : "250 ms before ";
+    EXPECT_THAT((SwayingRobot{.gyro_late = late, .fault_from = 28.0}.findings()),
+                ElementsAre(ContainsRegex("clocks: the gyro turns 2[456]0 ms .*, by the stamps, since 2023")))
+        << text;
+    EXPECT_THAT(
+        (SwayingRobot{.gyro_late = late, .fault_from = 28.0, .lost = true}.findings()),
+        ElementsAre(ContainsRegex("clocks: the gyro turns 2[456]0 ms .*the wheels, by the stamps, since")))
+        << text;
+  }
 }
 
 }  // namespace

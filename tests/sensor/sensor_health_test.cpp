@@ -255,6 +255,26 @@ TEST(SensorHealth, FixesWithoutAltitudeAreNamed) {
   EXPECT_TRUE(health.check(fix));
 }
 
+TEST(SensorHealth, FixesThatRiseAreCorrectedAndOnesThatEndAreNoted) {
+  SensorHealth health;
+  Fix fix;
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 0.1 * k;
+    if (k % 2 == 0 && t < 80.0) {
+      fix = {.stamp = at(t), .position = {0.7, -0.1, t < 20.0 ? 600.0 : 640.0}};
+      fix.covariance.setIdentity();
+      EXPECT_TRUE(health.check(fix));
+      if (t < 20.0 || t > 26.0) {
+        EXPECT_NEAR(fix.position.altitude, 600.0, 1e-6) << t;
+      }
+    }
+    health.check_scan(at(t), std::chrono::milliseconds(98));
+    health.check_motion(at(t), Pose::Identity());
+  }
+  EXPECT_THAT(health.findings(), ElementsAre(HasSubstr("its height jumped by 40 m")));
+  EXPECT_THAT(health.gaps(), ElementsAre("GPS: no fix from 80 s to 100 s of the drive, its end"));
+}
+
 TEST(SensorHealth, GroundThatIsTiltedInTheMedianOfManyScansNamesTheMount) {
   for (const double pitch : {0.0, 3.0, -20.0}) {
     SensorHealth health;

@@ -127,21 +127,12 @@ class RobotRecording {
   Status status_;
 };
 
-}  // namespace
-
-Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
-                                             const std::set<std::string>& without_gps) {
+Result<GeneratedFleet> write_robots(const std::filesystem::path& out, const std::vector<Robot>& robots) {
   const SyntheticWorld world = yard_world();
   GeneratedFleet fleet;
   fleet.origin = geo_point_from_degrees(48.2, 11.6, 500.0);
   const LocalFrame site(fleet.origin);
-  std::vector<Robot> robots{
-      {"r1", Pose::Identity(),
-       SyntheticDrive({{2, 0, 0}, {9, 1.2, 0}, {4, 1.0, 0.3}, {4, 1.0, -0.3}, {9, 1.2, 0}}), 1},
-      {"r2", make_pose(rotation_from_rpy(0, 0, 3.0), Eigen::Vector3d(42.0, -2.0, 0.0)),
-       SyntheticDrive({{2, 0, 0}, {10, 1.2, 0}, {4, 1.0, -0.25}, {4, 1.0, 0.25}, {9, 1.2, 0}}), 2}};
-  for (Robot& robot : robots) {
-    robot.gps = !without_gps.contains(robot.id);
+  for (const Robot& robot : robots) {
     auto bag = recording::BagWriter::create(out / robot.id);
     if (!bag) return tl::unexpected(bag.error());
     auto truth = RobotRecording(robot, world, site, *bag).write();
@@ -150,6 +141,26 @@ Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
     fleet.robots.push_back(std::move(*truth));
   }
   return fleet;
+}
+
+}  // namespace
+
+Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
+                                             const std::set<std::string>& without_gps) {
+  std::vector<Robot> robots{
+      {"r1", Pose::Identity(),
+       SyntheticDrive({{2, 0, 0}, {9, 1.2, 0}, {4, 1.0, 0.3}, {4, 1.0, -0.3}, {9, 1.2, 0}}), 1},
+      {"r2", make_pose(rotation_from_rpy(0, 0, 3.0), Eigen::Vector3d(42.0, -2.0, 0.0)),
+       SyntheticDrive({{2, 0, 0}, {10, 1.2, 0}, {4, 1.0, -0.25}, {4, 1.0, 0.25}, {9, 1.2, 0}}), 2}};
+  for (Robot& robot : robots) robot.gps = !without_gps.contains(robot.id);
+  return write_robots(out, robots);
+}
+
+Result<GeneratedFleet> write_winding_drive(const std::filesystem::path& out) {
+  std::vector<DriveLeg> legs{{2, 0, 0}, {2, 0.7, 0.3}};
+  for (int k = 0; k < 9; ++k) legs.push_back({4, 0.7, k % 2 == 0 ? -0.3 : 0.3});
+  legs.push_back({2, 0.7, 0.3});
+  return write_robots(out, {{"r1", Pose::Identity(), SyntheticDrive(legs), 3}});
 }
 
 AlignmentErrors errors_of_alignments(const store::Store& store, const GeneratedFleet& fleet) {

@@ -31,6 +31,9 @@ struct GeneratedFleet {
 Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
                                              const std::set<std::string>& without_gps = {});
 
+/// The same of one robot, r1, that turns to and fro for 42 s, so that stamps can be compared all the time.
+Result<GeneratedFleet> write_winding_drive(const std::filesystem::path& out);
+
 /// Errors of the alignments of two robots' nodes that `store` holds, the worst of each: m
 /// along the axes of the first node, and rad. None when it holds none.
 struct AlignmentErrors {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <deque>
 #include <optional>
@@ -12,13 +11,14 @@
 #include "fleetmap/geometry/se3.hpp"
 #include "fleetmap/sensor/running_integral.hpp"
 #include "fleetmap/sensor/samples.hpp"
+#include "fleetmap/sensor/turn_lag.hpp"
 
 namespace fleetmap::sensor {
 
 /// Compares the motion that the LiDAR measured with that of gyro and wheels: scales, signs, axes, directions
-/// and stamps. Drivers that have one of these wrong decode, and bend a map or break its odometry. Each
-/// contradiction is found once, when 10 m or 1.2 rad were driven; which sensor is wrong is decided by the
-/// majority.
+/// and stamps. Drivers that have one of these wrong decode, and bend a map or break its odometry. The
+/// first 10 m and 1.2 rad are judged by themselves; windows after them, by wider bounds, where several in a
+/// row contradict. Each contradiction is found once; which sensor is wrong is decided by the majority.
 class MotionAgreement {
  public:
   /// IMU frame to base_link; of configuration or /tf_static.
@@ -35,9 +35,21 @@ class MotionAgreement {
   std::vector<std::string> take_findings();
 
  private:
-  static constexpr int kLags = 20;          ///< on either side
-  static constexpr double kLagStep = 0.02;  // s
+  /// Judges the windows of one comparison.
+  class Windows {
+   public:
+    /// True where what was compared since `from` contradicts and that suffices for a finding.
+    bool confirm(bool contradicts, Stamp from);
+    bool any() const { return count_ > 0; }
+    bool found() const { return found_; }
+    /// The beginning of those in a row that contradict.
+    Stamp since() const { return since_; }
 
+   private:
+    std::size_t count_ = 0, in_a_row_ = 0;
+    Stamp since_;
+    bool found_ = false;
+  };
   struct Step {
     Stamp from, to;
     Eigen::Vector2d moved;  ///< m, in the axes of base_link
@@ -46,12 +58,15 @@ class MotionAgreement {
   void compare(const Step& step);
   void compare_drive(const Step& step);
   void compare_turn(const Step& step);
-  void compare_stamps(const Step& step);
+  void compare_gyro_and_wheel_stamps(Stamp imu);
   void check_drive();
+  void report_drive(const Eigen::Vector2d& slope, bool first);
   void check_turns();
+  void report_turns(const std::optional<Eigen::Vector3d>& gyro, const std::optional<double>& wheels);
   void check_gyro(const Eigen::Vector3d& slope, const std::string& others);
+  std::string since(const Windows& windows) const;
   void compare_gyro_and_wheels(Stamp to);
-  void check_stamps();
+  void report_lag(const TurnLag::Found& found, const std::string& other);
 
   Eigen::Quaterniond q_base_imu_ = Eigen::Quaterniond::Identity();
   RunningIntegral gyro_;    ///< rad in base_link
@@ -73,9 +88,12 @@ class MotionAgreement {
   std::optional<Stamp> compared_to_;                   ///< gyro with wheels
   double wheels_turned_ = 0.0, wheels_squares_ = 0.0;  // rad, rad^2
   Eigen::Vector3d gyro_by_wheels_ = Eigen::Vector3d::Zero();
-  std::array<double, 2 * kLags + 1> misfits_{};  ///< of gyro and LiDAR by lag, rad^2
-  std::size_t misfit_steps_ = 0;
-  bool drive_checked_ = false, turns_checked_ = false, stamps_checked_ = false;
+  Stamp drive_from_, turns_from_;  ///< of the windows under way
+  Windows drive_windows_, turn_windows_;
+  TurnLag lidar_lag_{TurnLag::Config{}};
+  TurnLag wheel_lag_{TurnLag::Config{.same_scale = false, .first_is_usual = true}};
+  std::optional<Stamp> stamps_compared_to_;  ///< gyro with wheels
+  bool lag_reported_ = false;
   std::vector<std::string> findings_;
 };
 

@@ -12,6 +12,7 @@
 #include "fleetmap/sensor/gps_agreement.hpp"
 #include "fleetmap/sensor/motion_agreement.hpp"
 #include "fleetmap/sensor/samples.hpp"
+#include "fleetmap/sensor/stream_silence.hpp"
 
 namespace fleetmap::sensor {
 
@@ -23,7 +24,7 @@ class SensorHealth {
   /// Correct the sample, or return false: it must not be used.
   bool check(Imu& imu);
   bool check(Wheel& wheel);
-  bool check(const Fix& fix);
+  bool check(Fix& fix);
   /// base_link in the odometry's frame at a scan, if the scan fitted the map; otherwise empty. Gyro, wheels
   /// and GPS are compared with it.
   void check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base);
@@ -58,6 +59,8 @@ class SensorHealth {
   /// The findings that are notes, and those that are not.
   const std::vector<std::string>& notes() const { return notes_; }
   std::vector<std::string> alarms() const;
+  /// Gaps of fixes and wheels until now, which are no finding unless they are long.
+  std::vector<std::string> gaps() const;
   /// Samples that check() refused.
   std::uint64_t refused() const { return refused_; }
   /// By the time between scans; an estimate.
@@ -70,6 +73,7 @@ class SensorHealth {
   void count_scan(Duration interval, Duration sweep);
   bool correct_rate(Imu& imu);
   bool correct_twist(Wheel& wheel);
+  void pass_time(Stamp stamp, double moved);
   void state(std::string finding);
   bool refuse();
 
@@ -90,6 +94,9 @@ class SensorHealth {
   Eigen::Quaterniond q_base_imu_ = Eigen::Quaterniond::Identity();
   MotionAgreement motion_;
   GpsAgreement gps_;
+  StreamSilence fix_silence_{fix_silence()}, wheel_silence_{wheel_silence()};
+  std::optional<Stamp> time_passed_to_;
+  std::optional<Eigen::Vector3d> last_position_;  ///< in the odometry's frame
   std::optional<Stamp> first_imu_, last_imu_;
   double imu_gaps_ = 0.0;  ///< s
   std::vector<Eigen::Vector3d> grounds_;

@@ -43,7 +43,7 @@ std::vector<std::string> LiveOdometry::failures() const {
 }
 
 std::vector<std::string> LiveOdometry::notes() const {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = check_.health().gaps();
   if (scans_ == 0) return notes;
   if (const auto why = check_.health().motion_not_compared())
     notes.push_back("motions not compared: " + *why);

@@ -31,6 +31,7 @@ class OdometryFeed {
     take_warnings();
     OdometryRun run = odometry_.run();
     run.findings = std::move(findings_);
+    run.notes = check_.health().gaps();
     return run;
   }
 

@@ -50,6 +50,7 @@ CommandResult<ExitCode> inspect_recording(const RecordingOptions& options, std::
   for (const auto& [name, count] : input->reader->counters().named()) {
     if (count > 0) out << name << ' ' << count << '\n';
   }
+  for (const std::string& note : done->notes) out << "note: " << note << '\n';
   for (const std::string& finding : findings) out << "- " << finding << '\n';
   if (findings.empty()) out << "nothing found in clocks, units, rates, mounts and motions\n";
   return findings.empty() ? kDone : kFailed;

@@ -27,6 +27,7 @@ struct OdometryRun {
   std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
   odometry::TrajectoryCheck way;
   std::vector<std::string> findings;  ///< about clocks, units, rates, mounts and motions
+  std::vector<std::string> notes;     ///< that are no findings: gaps
 
   /// True if the odometry never restarted its map and the trajectory has no warnings.
   bool kept_its_way() const { return counters.map_restarts == 0 && way.warnings().empty(); }

@@ -1,0 +1,104 @@
+#include "fleetmap/sensor/stream_silence.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "sensor/stamps.hpp"
+
+namespace fleetmap::sensor {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A drive of 1 m/s by scans of 10 Hz; samples come every `interval` where `heard`.
+struct PartlyHeardDrive {
+  double seconds = 41.0, interval = 0.2, speed = 1.0;
+  std::function<bool(double)> heard = [](double) { return true; };
+
+  StreamSilence driven(SilenceRule rule) const {
+    StreamSilence silence(std::move(rule));
+    double next = 0.0;
+    for (int k = 0; k < static_cast<int>(10.0 * seconds); ++k) {
+      const double t = 0.1 * k;
+      silence.pass(k == 0 ? 0.0 : 0.1, 0.1 * speed);
+      for (; next <= t; next += interval) {
+        if (heard(next)) silence.add(at(next));
+      }
+    }
+    return silence;
+  }
+};
+
+TEST(StreamSilence, NothingIsSaidOfSensorsThatAreHeardAtTheirOwnRate) {
+  for (const double interval : {0.02, 0.2, 1.0, 5.0}) {
+    auto fixes = PartlyHeardDrive{.seconds = 200.0, .interval = interval}.driven(fix_silence());
+    EXPECT_EQ(fixes.take_finding(), std::nullopt);
+    EXPECT_EQ(fixes.note(), std::nullopt) << interval;
+  }
+  EXPECT_EQ(PartlyHeardDrive{.interval = 0.05}.driven(wheel_silence()).note(), std::nullopt);
+}
+
+TEST(StreamSilence, AnOutageOfGpsIsANoteWithItsTimes) {
+  auto fixes =
+      PartlyHeardDrive{.seconds = 100.0, .heard = [](double t) { return t < 50.0 || t > 70.0; }}.driven(
+          fix_silence());
+  EXPECT_EQ(fixes.take_finding(), std::nullopt);
+  EXPECT_EQ(fixes.note(), "GPS: no fix from 50 s to 70 s of the drive");
+  auto twice = PartlyHeardDrive{
+      .seconds = 100.0, .heard = [](double t) {
+        return t < 20.0 || (t > 30.0 && t < 80.0);
+      }}.driven(fix_silence());
+  EXPECT_EQ(twice.take_finding(), std::nullopt);
+  EXPECT_EQ(twice.note(),
+            "GPS: no fix in 2 gaps, together 30 s; the longest is from 80 s to 100 s of the drive, its end");
+}
+
+TEST(StreamSilence, FixesThatEndAreAFindingWhereThatIsLongForTheDrive) {
+  auto fixes = PartlyHeardDrive{.heard = [](double t) { return t < 20.0; }}.driven(fix_silence());
+  EXPECT_THAT(fixes.take_finding().value_or(""), HasSubstr("GPS: no fix since 20 s of the drive"));
+  EXPECT_EQ(fixes.take_finding(), std::nullopt);
+  EXPECT_THAT(fixes.note().value_or(""), HasSubstr("from 20 s to 41 s of the drive, its end"));
+  auto late = PartlyHeardDrive{.heard = [](double t) { return t < 33.0; }}.driven(fix_silence());
+  EXPECT_EQ(late.take_finding(), std::nullopt);
+  EXPECT_NE(late.note(), std::nullopt);
+}
+
+TEST(StreamSilence, WheelsThatEndAreAFinding) {
+  const auto first_half = [](double t) { return t < 20.0; };
+  auto wheels = PartlyHeardDrive{.interval = 0.05, .heard = first_half}.driven(wheel_silence());
+  EXPECT_THAT(wheels.take_finding().value_or(""),
+              AllOf(HasSubstr("wheel odometry: no sample since 20 s"), HasSubstr("Check the cable")));
+  auto standing =
+      PartlyHeardDrive{.interval = 0.05, .speed = 0.0, .heard = first_half}.driven(wheel_silence());
+  EXPECT_EQ(standing.take_finding(), std::nullopt) << "some drivers are silent at standstill";
+  EXPECT_EQ(standing.note(), std::nullopt);
+}
+
+TEST(StreamSilence, WheelsThatEndLateInALongDriveAreAFinding) {
+  auto wheels = PartlyHeardDrive{
+      .seconds = 3640.0, .interval = 0.05, .heard = [](double t) {
+        return t < 3600.0;
+      }}.driven(wheel_silence());
+  EXPECT_THAT(wheels.take_finding().value_or(""), HasSubstr("since 3600 s of the drive, for 30 s"));
+}
+
+TEST(StreamSilence, ScansThatAreWorkedOnLateAreNoGap) {
+  StreamSilence wheels(wheel_silence());
+  for (int k = 0; k < 990; ++k) {
+    wheels.add(at(0.05 * k));
+    // Those of 2 s at once.
+    for (int scan = 0; k % 40 == 39 && scan < 20; ++scan) wheels.pass(0.1, 0.1);
+  }
+  EXPECT_EQ(wheels.note(), std::nullopt);
+}
+
+TEST(StreamSilence, ASensorThatWasNeverHeardIsNotSilent) {
+  auto none = PartlyHeardDrive{.heard = [](double) { return false; }}.driven(fix_silence());
+  EXPECT_EQ(none.take_finding(), std::nullopt);
+  EXPECT_EQ(none.note(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace fleetmap::sensor
