@@ -40,8 +40,6 @@ constexpr std::size_t kGrounds = 40;
 constexpr Duration kImuGap = std::chrono::milliseconds(250), kPauseOfImu = std::chrono::seconds(10);
 constexpr Duration kMinGapObservation = std::chrono::seconds(10);
 constexpr double kGapShare = 0.1;
-/// The drive goes on by steps, since stamps may jump.
-constexpr double kLongestStepOfTime = 1.0;    // s
 constexpr double kMovedWhenLost = 0.1;        // m a scan: a robot whose odometry is lost drives
 constexpr double kSteepest = 25.0 * kDegree;  // slope on which a robot starts
 constexpr double kLevel = 5.0 * kDegree;      // tilt of the ground in base_link
@@ -145,21 +143,8 @@ void SensorHealth::check_motion(Stamp stamp, const std::optional<Pose>& T_odom_b
 }
 
 void SensorHealth::pass_time(Stamp stamp, double moved) {
-  const std::optional<Stamp> before = std::exchange(time_passed_to_, stamp);
-  if (!before || stamp <= *before) return;
-  const double seconds = std::min(to_seconds(stamp - *before), kLongestStepOfTime);
-  for (StreamSilence* silence : {&fix_silence_, &wheel_silence_}) {
-    silence->pass(seconds, moved);
-    if (auto finding = silence->take_finding()) state(std::move(*finding));
-  }
-}
-
-std::vector<std::string> SensorHealth::gaps() const {
-  std::vector<std::string> gaps;
-  for (const StreamSilence* silence : {&fix_silence_, &wheel_silence_}) {
-    if (auto note = silence->note()) gaps.push_back(std::move(*note));
-  }
-  return gaps;
+  silences_.pass(stamp, moved);
+  for (std::string& finding : silences_.take_findings()) state(std::move(finding));
 }
 
 void SensorHealth::check_gaps(Stamp stamp) {
@@ -266,7 +251,7 @@ bool SensorHealth::correct_rate(Imu& imu) {
 bool SensorHealth::check(Wheel& wheel) {
   const bool sound = correct_twist(wheel) || refuse();
   if (!sound) return false;
-  wheel_silence_.add(wheel.stamp);
+  silences_.add_wheel(wheel.stamp);
   motion_.add(wheel);
   return true;
 }
@@ -301,7 +286,7 @@ bool SensorHealth::check(Fix& fix) {
   if (!somewhere && fix.valid) return refuse();
   const bool flat = somewhere && !std::isfinite(p.altitude);
   if (!flat) {
-    if (fix.valid) fix_silence_.add(fix.stamp);
+    if (fix.valid) silences_.add_fix(fix.stamp);
     gps_.add(fix);
     fix.position.altitude -= gps_.height_correction();
     return true;

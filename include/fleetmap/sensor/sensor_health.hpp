@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/sensor/drive_silences.hpp"
 #include "fleetmap/sensor/gps_agreement.hpp"
 #include "fleetmap/sensor/motion_agreement.hpp"
 #include "fleetmap/sensor/samples.hpp"
-#include "fleetmap/sensor/stream_silence.hpp"
 
 namespace fleetmap::sensor {
 
@@ -60,7 +60,7 @@ class SensorHealth {
   const std::vector<std::string>& notes() const { return notes_; }
   std::vector<std::string> alarms() const;
   /// Gaps of fixes and wheels until now, which are no finding unless they are long.
-  std::vector<std::string> gaps() const;
+  std::vector<std::string> gaps() const { return silences_.notes(); }
   /// Samples that check() refused.
   std::uint64_t refused() const { return refused_; }
   /// By the time between scans; an estimate.
@@ -94,8 +94,7 @@ class SensorHealth {
   Eigen::Quaterniond q_base_imu_ = Eigen::Quaterniond::Identity();
   MotionAgreement motion_;
   GpsAgreement gps_;
-  StreamSilence fix_silence_{fix_silence()}, wheel_silence_{wheel_silence()};
-  std::optional<Stamp> time_passed_to_;
+  DriveSilences silences_;
   std::optional<Eigen::Vector3d> last_position_;  ///< in the odometry's frame
   std::optional<Stamp> first_imu_, last_imu_;
   double imu_gaps_ = 0.0;  ///< s

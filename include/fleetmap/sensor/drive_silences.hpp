@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/sensor/stream_silence.hpp"
+
+namespace fleetmap::sensor {
+
+/// The gaps of GPS and wheels on a drive, which goes on by the stamps of another sensor.
+class DriveSilences {
+ public:
+  void add_fix(Stamp stamp) { fixes_.add(stamp); }
+  void add_wheel(Stamp stamp) { wheels_.add(stamp); }
+  /// The drive has reached `stamp`; since the last call the robot moved by so many metres.
+  void pass(Stamp stamp, double moved);
+  /// Since the last call.
+  std::vector<std::string> take_findings();
+  /// A sentence on the gaps of each until now, which are no finding unless they are long.
+  std::vector<std::string> notes() const;
+
+ private:
+  StreamSilence fixes_{fix_silence()}, wheels_{wheel_silence()};
+  std::optional<Stamp> passed_to_;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace fleetmap::sensor
