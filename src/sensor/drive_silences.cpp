@@ -7,14 +7,14 @@ namespace fleetmap::sensor {
 namespace {
 
 /// The drive goes on by steps, since stamps may jump.
-constexpr double kLongestStep = 1.0;  // s
+constexpr double kMaxTimeStep = 1.0;  // s
 
 }  // namespace
 
 void DriveSilences::pass(Stamp stamp, double moved) {
   const std::optional<Stamp> before = std::exchange(passed_to_, stamp);
   if (!before || stamp <= *before) return;
-  const double seconds = std::min(to_seconds(stamp - *before), kLongestStep);
+  const double seconds = std::min(to_seconds(stamp - *before), kMaxTimeStep);
   for (StreamSilence* silence : {&fixes_, &wheels_}) {
     silence->pass(seconds, moved);
     if (auto finding = silence->take_finding()) findings_.push_back(std::move(*finding));
