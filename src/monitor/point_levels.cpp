@@ -63,7 +63,8 @@ std::vector<PlacedPoint> along_curve(const cloud::PointCloud& cloud, const Box& 
     if (!p.allFinite()) continue;
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const float steps = std::clamp((p[axis] - box.low[axis]) * per_metre, 0.0f, kMaxSteps);
+      const float along = (p[axis] - box.low[axis]) * per_metre;  // no number in a box without end
+      const float steps = along > 0.0f ? std::min(along, kMaxSteps) : 0.0f;
       code |= spread_bits(static_cast<std::uint32_t>(steps)) << axis;
     }
     placed.push_back({code, k});

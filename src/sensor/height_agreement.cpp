@@ -20,6 +20,10 @@ constexpr double kStepSigmas = 5.0;
 /// Slope of the odometry's frame, as a share of the way: it is level only if the robot started level or has
 /// an IMU.
 constexpr double kFrameSlope = 0.2;
+/// m without a fix, after which slope and drift of the odometry may be taken for a step.
+constexpr double kMaxWayBetween = 20.0;
+/// Of a step: a height that is so near to the first one has returned to it.
+constexpr double kReturned = 0.5;
 
 /// m, of GPS above the odometry.
 double median_offset(const std::deque<HeightAgreement::Height>& heights) {
@@ -33,20 +37,35 @@ double median_offset(const std::deque<HeightAgreement::Height>& heights) {
 }  // namespace
 
 void HeightAgreement::interrupt() {
+  begin_anew();
+  first_level_.reset();
+}
+
+void HeightAgreement::begin_anew() {
   before_.clear();
   after_.clear();
+  anew_ = true;
 }
 
 void HeightAgreement::add(const Height& height) {
   if (!first_) first_ = height.stamp;
+  const std::optional<double> last = std::exchange(last_gps_, height.gps);
+  if (!before_.empty() && after_.empty() && (height.odom - before_.back().odom).norm() > kMaxWayBetween)
+    begin_anew();
+  // The step may have ended in the meantime.
+  if (std::exchange(anew_, false) && last &&
+      std::abs(height.gps - *last + correction_) < kReturned * std::abs(correction_))
+    correction_ = 0.0;
   const auto agree = [&] {
     after_.clear();
     before_.push_back(height);
     if (before_.size() > kHeightsBefore) before_.pop_front();
+    if (before_.size() == kHeightsBefore && !first_level_)
+      first_level_ = median_offset(before_) - correction_;
   };
   if (before_.size() < kHeightsBefore) return agree();
   const double offset = height.gps - height.odom.z(), reference = median_offset(before_);
-  const double moved = (height.odom - before_.back().odom).norm();
+  const double moved = (height.odom - before_.front().odom).norm();
   const double bound =
       std::max(kMinStep, kStepSigmas * std::hypot(height.sigma, before_.back().sigma)) + kFrameSlope * moved;
   if (std::abs(offset - reference) < bound) return agree();
@@ -56,22 +75,26 @@ void HeightAgreement::add(const Height& height) {
   if (after_.size() < kMinHeightsAfter || height.stamp - after_.front().stamp < kStepLasts) return;
   // The first ones after it, since the error of GPS wanders.
   const auto near = std::min(kHeightsBefore, after_.size());
-  begin_after(median_offset({after_.begin(), std::next(after_.begin(), static_cast<std::ptrdiff_t>(near))}) -
-              reference);
+  begin_after(reference,
+              median_offset({after_.begin(), std::next(after_.begin(), static_cast<std::ptrdiff_t>(near))}));
 }
 
-void HeightAgreement::begin_after(double step) {
-  correction_ += step;
+void HeightAgreement::begin_after(double level_before, double level) {
+  const double step = level - level_before;
+  // An error that grew slowly ends at once: heights are right again.
+  const bool returned = std::abs(level - *first_level_) < kReturned * std::abs(step);
+  correction_ = returned ? 0.0 : correction_ + step;
   const Height& first = after_.front();
   if (!std::exchange(reported_, true))
-    finding_ =
-        "GPS: its height jumped by " + short_number(step) + " m at " + to_utc(first.stamp) + " (" +
-        short_number(to_seconds(first.stamp - *first_)) +
-        " s after the first fix) while the robot's changed by " +
-        short_number(first.odom.z() - before_.back().odom.z()) +
-        " m: RTK was lost, the base station changed, or heights are above sea level instead of the "
-        "ellipsoid. Later heights are corrected by this jump and by further ones. Check the receiver's "
-        "corrections and the datum of its heights";
+    finding_ = "GPS: its height jumped by " + short_number(step) + " m at " + to_utc(first.stamp) + " (" +
+               short_number(to_seconds(first.stamp - *first_)) +
+               " s after the first fix) while the robot's changed by " +
+               short_number(first.odom.z() - before_.back().odom.z()) +
+               " m: RTK was lost, the base station changed, or heights are above sea level instead of the "
+               "ellipsoid. " +
+               std::string(returned ? "They are as the first ones again, and used as they are"
+                                    : "Later heights are corrected by this jump and by further ones") +
+               ". Check the receiver's corrections and the datum of its heights";
   before_ = std::exchange(after_, {});
   while (before_.size() > kHeightsBefore) before_.pop_front();
 }

@@ -40,7 +40,6 @@ constexpr std::size_t kGrounds = 40;
 constexpr Duration kImuGap = std::chrono::milliseconds(250), kPauseOfImu = std::chrono::seconds(10);
 constexpr Duration kMinGapObservation = std::chrono::seconds(10);
 constexpr double kGapShare = 0.1;
-constexpr double kMovedWhenLost = 0.1;        // m a scan: a robot whose odometry is lost drives
 constexpr double kSteepest = 25.0 * kDegree;  // slope on which a robot starts
 constexpr double kLevel = 5.0 * kDegree;      // tilt of the ground in base_link
 
@@ -115,7 +114,7 @@ std::vector<std::string> SensorHealth::take_warnings() {
 
 bool SensorHealth::check(Imu& imu) {
   check_gaps(imu.stamp);
-  if (!last_scan_) pass_time(imu.stamp, 0.0);
+  if (!last_scan_) silences_.pass(imu.stamp, std::nullopt);
   correct_force(imu);
   check_gravity(imu);
   if (!correct_rate(imu)) return refuse();
@@ -130,20 +129,15 @@ void SensorHealth::set_imu_rotation(const Eigen::Quaterniond& q_base_imu) {
 
 void SensorHealth::check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base) {
   if (!T_odom_base) {
-    pass_time(stamp, kMovedWhenLost);
+    silences_.pass_lost(stamp);
     motion_.interrupt();
     return gps_.interrupt();
   }
-  const Eigen::Vector3d position = T_odom_base->translation();
-  pass_time(stamp, (position - std::exchange(last_position_, position).value_or(position)).norm());
+  silences_.pass(stamp, Eigen::Vector3d(T_odom_base->translation()));
   motion_.add_motion(stamp, *T_odom_base);
   gps_.add_motion(stamp, *T_odom_base);
   for (std::string& finding : motion_.take_findings()) state(std::move(finding));
   for (std::string& finding : gps_.take_findings()) state(std::move(finding));
-}
-
-void SensorHealth::pass_time(Stamp stamp, double moved) {
-  silences_.pass(stamp, moved);
   for (std::string& finding : silences_.take_findings()) state(std::move(finding));
 }
 

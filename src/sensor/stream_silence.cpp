@@ -20,6 +20,8 @@ std::string from_to(double from, double to) {
 
 SilenceRule fix_silence() {
   return {.sensor = "GPS: no fix",
+          .found_after = 60.0,
+          .found_in_one = 600.0,
           .remedy =
               "the place is that of the odometry there. Outages below trees and roofs are normal; else check "
               "antenna, cable and driver"};

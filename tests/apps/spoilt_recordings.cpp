@@ -237,8 +237,6 @@ std::vector<Spoilt> of_gps_and_all() {
          if (t > 12.0) fix.position.altitude += 40.0;
        }),
        "GPS: its height jumped by", true, true},
-      {"fixes_end_after_12_s", keep_if<Fix>([](std::size_t, double t) { return t < 12.0; }),
-       "GPS: no fix since 12 s", true, true},
       {"fixes_stand",
        [](Recording& recording) {
          std::optional<GeoPoint> first;

@@ -19,6 +19,7 @@ using ::testing::HasSubstr;
 struct HillyDrive {
   double seconds = 120.0, interval = 0.2, sigma = 1.5, lean = 0.0;
   std::function<double(double)> error = [](double) { return 0.0; };
+  std::function<bool(double)> heard = [](double) { return true; };
 
   HeightAgreement driven() const {
     HeightAgreement agreement;
@@ -28,6 +29,7 @@ struct HillyDrive {
     for (double t = 0.0; t < seconds; t += interval) {
       const double x = 1.5 * t, z = 8.0 * std::sin(x / 53.0);
       slow = 0.997 * slow + 0.25 * normal(random);  // 3.2 m
+      if (!heard(t)) continue;
       agreement.add({at(t), 500.0 + z + slow + 0.5 * normal(random) + error(t), sigma,
                      Eigen::Vector3d(x, 0.0, z + lean * x)});
     }
@@ -70,6 +72,34 @@ TEST(HeightAgreement, ReflectionsAndReceiversThatSayThatTheyErrAreNoStep) {
   EXPECT_EQ(reflected.take_finding(), std::nullopt);
   auto coarse = HillyDrive{.sigma = 10.0, .error = [](double t) { return t < 20.0 ? 0.0 : 40.0; }}.driven();
   EXPECT_EQ(coarse.take_finding(), std::nullopt);
+}
+
+TEST(HeightAgreement, AGapInWhichTheOdometryDriftsIsNoStep) {
+  auto agreement = HillyDrive{
+      .seconds = 200.0, .lean = 0.15, .heard = [](double t) {
+        return t < 60.0 || t > 130.0;
+      }}.driven();
+  EXPECT_EQ(agreement.take_finding(), std::nullopt);
+  EXPECT_EQ(agreement.correction(), 0.0);
+}
+
+TEST(HeightAgreement, AnErrorThatGrowsSlowlyAndEndsAtOnceIsNotCorrected) {
+  auto agreement =
+      HillyDrive{.error = [](double t) { return t < 20.0 || t > 80.0 ? 0.0 : 0.5 * (t - 20.0); }}.driven();
+  EXPECT_THAT(agreement.take_finding().value_or(""), HasSubstr("They are as the first ones again"));
+  EXPECT_EQ(agreement.correction(), 0.0);
+}
+
+TEST(HeightAgreement, AStepThatEndsDuringAnInterruptionIsCorrectedNoLonger) {
+  HeightAgreement agreement;
+  for (int k = 0; k < 150; ++k) {
+    if (k == 100) {
+      EXPECT_NEAR(agreement.correction(), 40.0, 1e-9);
+      agreement.interrupt();
+    }
+    agreement.add({at(0.2 * k), k < 50 || k >= 100 ? 500.0 : 540.0, 1.0, Eigen::Vector3d::Zero()});
+  }
+  EXPECT_EQ(agreement.correction(), 0.0);
 }
 
 TEST(HeightAgreement, AfterAnInterruptionHeightsBeginAnew) {

@@ -56,13 +56,17 @@ TEST(StreamSilence, AnOutageOfGpsIsANoteWithItsTimes) {
 }
 
 TEST(StreamSilence, FixesThatEndAreAFindingWhereThatIsLongForTheDrive) {
-  auto fixes = PartlyHeardDrive{.heard = [](double t) { return t < 20.0; }}.driven(fix_silence());
+  const auto ends_at_20_s = [](double t) { return t < 20.0; };
+  auto fixes = PartlyHeardDrive{.seconds = 100.0, .heard = ends_at_20_s}.driven(fix_silence());
   EXPECT_THAT(fixes.take_finding().value_or(""), HasSubstr("GPS: no fix since 20 s of the drive"));
   EXPECT_EQ(fixes.take_finding(), std::nullopt);
-  EXPECT_THAT(fixes.note().value_or(""), HasSubstr("from 20 s to 41 s of the drive, its end"));
-  auto late = PartlyHeardDrive{.heard = [](double t) { return t < 33.0; }}.driven(fix_silence());
-  EXPECT_EQ(late.take_finding(), std::nullopt);
-  EXPECT_NE(late.note(), std::nullopt);
+  EXPECT_THAT(fixes.note().value_or(""), HasSubstr("from 20 s to 100 s of the drive, its end"));
+  auto tunnel = PartlyHeardDrive{.seconds = 70.0, .heard = ends_at_20_s}.driven(fix_silence());
+  EXPECT_EQ(tunnel.take_finding(), std::nullopt) << "50 s early in a drive";
+  EXPECT_NE(tunnel.note(), std::nullopt);
+  auto late =
+      PartlyHeardDrive{.seconds = 4000.0, .heard = [](double t) { return t < 3000.0; }}.driven(fix_silence());
+  EXPECT_THAT(late.take_finding().value_or(""), HasSubstr("since 3000 s")) << "ten minutes";
 }
 
 TEST(StreamSilence, WheelsThatEndAreAFinding) {

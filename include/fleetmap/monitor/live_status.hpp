@@ -10,7 +10,7 @@
 
 namespace fleetmap::monitor {
 
-/// When a robot was last heard on a link.
+/// The last time that a robot was heard on a link.
 struct LastHeard {
   std::string link;  ///< long_range or short_range
   double seconds_ago = 0.0;

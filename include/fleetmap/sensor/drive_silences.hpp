@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,16 +15,21 @@ class DriveSilences {
  public:
   void add_fix(Stamp stamp) { fixes_.add(stamp); }
   void add_wheel(Stamp stamp) { wheels_.add(stamp); }
-  /// The drive has reached `stamp`; since the last call the robot moved by so many metres.
-  void pass(Stamp stamp, double moved);
+  /// The drive has reached `stamp`, at `position` (m) of the odometry if there is any.
+  void pass(Stamp stamp, const std::optional<Eigen::Vector3d>& position);
+  /// The same while the odometry is lost, as it is in a robot that drives.
+  void pass_lost(Stamp stamp);
   /// Since the last call.
   std::vector<std::string> take_findings();
   /// A sentence on the gaps of each until now, which are no finding unless they are long.
   std::vector<std::string> notes() const;
 
  private:
+  void pass(Stamp stamp, double moved);
+
   StreamSilence fixes_{fix_silence()}, wheels_{wheel_silence()};
   std::optional<Stamp> passed_to_;
+  std::optional<Eigen::Vector3d> moved_from_;
   std::vector<std::string> findings_;
 };
 

@@ -29,11 +29,17 @@ class HeightAgreement {
   std::optional<std::string> take_finding();
 
  private:
-  void begin_after(double step);
+  /// The fixes before have no relation to those that come.
+  void begin_anew();
+  /// Heights are on another level (m, above the odometry) since after_.front().
+  void begin_after(double level_before, double level);
 
   std::deque<Height> before_;  ///< the last that agree
   std::deque<Height> after_;   ///< in a row that agree with one another and not with those before
   std::optional<Stamp> first_;
+  std::optional<double> first_level_;  ///< m, of right heights above the odometry at the beginning
+  std::optional<double> last_gps_;     ///< m
+  bool anew_ = false;                  ///< no fix since begin_anew()
   double correction_ = 0.0;
   bool reported_ = false;
   std::optional<std::string> finding_;

@@ -73,7 +73,6 @@ class SensorHealth {
   void count_scan(Duration interval, Duration sweep);
   bool correct_rate(Imu& imu);
   bool correct_twist(Wheel& wheel);
-  void pass_time(Stamp stamp, double moved);
   void state(std::string finding);
   bool refuse();
 
@@ -95,7 +94,6 @@ class SensorHealth {
   MotionAgreement motion_;
   GpsAgreement gps_;
   DriveSilences silences_;
-  std::optional<Eigen::Vector3d> last_position_;  ///< in the odometry's frame
   std::optional<Stamp> first_imu_, last_imu_;
   double imu_gaps_ = 0.0;  ///< s
   std::vector<Eigen::Vector3d> grounds_;

@@ -9,7 +9,7 @@
 
 namespace fleetmap::sensor {
 
-/// When a sensor is silent, and when that is a finding.
+/// The silence of a sensor that is a gap, and that which is a finding.
 struct SilenceRule {
   std::string sensor;           ///< in sentences
   double min_gap = 3.0;         ///< s

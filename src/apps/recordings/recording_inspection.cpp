@@ -20,9 +20,8 @@ std::vector<std::string> unread_parts(const recording::Counters& counters) {
     if (count > 0) findings.push_back(std::to_string(count) + (count == 1 ? one : many) + what);
   };
   add(counters.damaged_parts, " part of the recording is", " parts of the recording are",
-      " damaged or cut off and left out: copy it again from where it was recorded (`mcap recover` and "
-      "`rosbag "
-      "reindex` save what can be read)");
+      " damaged or cut off and left out: copy it again from where it was recorded (mcap recover and "
+      "rosbag reindex save what can be read)");
   add(counters.undecodable_messages, " message is", " messages are",
       " truncated or contradictory and left out: correct the driver, or the type of the topic");
   add(counters.unreadable_scan_files, " scan file is", " scan files are",

@@ -10,7 +10,7 @@ const kRecent_s = 60;
 export class WhyPanel {
   private state?: State;
   private pair?: [string, string];
-  private hasPair = false; // the reader, a pair or none
+  private hasSelected = false; // the reader, a pair or none
   private verdict: string = 'all';
   private robot: string = 'all';
   private recent = false; // those of the last minute alone, the newest first
@@ -23,7 +23,7 @@ export class WhyPanel {
   ) {}
 
   show(state: State): void {
-    const apart = this.hasPair || this.pair ? undefined : state.pairs.find((pair) => !pair.joined);
+    const apart = this.hasSelected || this.pair ? undefined : state.pairs.find((pair) => !pair.joined);
     if (apart) this.pair = [apart.a, apart.b];
     this.state = state;
     this.render();
@@ -106,7 +106,7 @@ export class WhyPanel {
     );
     button.onclick = () => {
       this.pair = this.isPair(pair) ? undefined : [pair.a, pair.b];
-      this.hasPair = true;
+      this.hasSelected = true;
       this.rows = kRows;
       this.render();
     };
