@@ -22,7 +22,7 @@ constexpr double kStepSigmas = 5.0;
 constexpr double kFrameSlope = 0.2;
 /// m without a fix, after which slope and drift of the odometry may be taken for a step.
 constexpr double kMaxWayBetween = 20.0;
-/// Of a step: a height that is so near to the first one has returned to it.
+/// A height that is nearer to the first one than this share of a step has returned to it.
 constexpr double kReturned = 0.5;
 
 /// m, of GPS above the odometry.

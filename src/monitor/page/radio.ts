@@ -165,7 +165,8 @@ function fleetMapsText(maps: FleetMaps): string {
     return `By their counts no robot holds fewer submaps; that they hold the same ones, counts do not show.${without}`;
   const left = maps.seconds_to_equal;
   const when = left === null ? 'none came there lately' : `at the present rates it has as many in ${ago(left)}`;
-  return `${maps.last} will be the last: it counts ${maps.missing_submaps} submaps fewer than there are nodes; ${when}.${without}`;
+  const fewer = `it counts ${maps.missing_submaps} submaps fewer than there are nodes`;
+  return `${maps.last} will be the last: ${fewer}; ${when}.${without}`;
 }
 
 function table(title: string, columns: string[], rows: string[][], name: string): HTMLElement[] {

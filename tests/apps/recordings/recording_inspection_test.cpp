@@ -44,8 +44,7 @@ std::pair<int, std::string> inspection_of_beginning(std::size_t size) {
 
 TEST(RecordingInspection, ACutIsAFinding) {
   constexpr const char* kFinding = "- 1 part of the recording is damaged or cut off";
-  const auto [code, whole] = inspection_of_beginning(std::string::npos);
-  EXPECT_THAT(whole, ::testing::Not(HasSubstr(kFinding)));
+  EXPECT_THAT(inspection_of_beginning(std::string::npos).second, ::testing::Not(HasSubstr(kFinding)));
   const std::size_t size = std::filesystem::file_size(std::filesystem::path(FLEETMAP_SOURCE_DIR) /
                                                       "tests/recording/data/no_chunks.mcap");
   const auto [cut_code, cut] = inspection_of_beginning(size * 3 / 4);

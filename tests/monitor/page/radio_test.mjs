@@ -38,11 +38,13 @@ assert.equal(
 );
 assert.equal(
   mapsOf({last: 'r3', missing_submaps: 20, seconds_to_equal: 300}),
-  'r3 will be the last: it counts 20 submaps fewer than there are nodes; at the present rates it has as many in 5:00 min.',
+  'r3 will be the last: it counts 20 submaps fewer than there are nodes; ' +
+    'at the present rates it has as many in 5:00 min.',
 );
 assert.equal(
   mapsOf({last: 'r3', missing_submaps: 20, seconds_to_equal: null, not_counted: ['r2', 'r4']}),
-  'r3 will be the last: it counts 20 submaps fewer than there are nodes; none came there lately. Without r2, r4, lost or not heard yet.',
+  'r3 will be the last: it counts 20 submaps fewer than there are nodes; ' +
+    'none came there lately. Without r2, r4, lost or not heard yet.',
 );
 
 // A phone's sideways scroll and the focus are on elements that stay.
