@@ -24,10 +24,10 @@ class OperatorOrders : public ::testing::Test {
   }
   /// The largest distance from the start within `time`.
   double farthest(const std::string& name, Duration time) {
-    double most = 0.0;
+    double farthest = 0.0;
     for (const Stamp end = fleet_.now() + time; fleet_.now() < end; fleet_.run_for(500ms))
-      most = std::max(most, from_start(name));
-    return most;
+      farthest = std::max(farthest, from_start(name));
+    return farthest;
   }
   bool run_until(Duration limit, const std::function<bool()>& condition) {
     for (const Stamp end = fleet_.now() + limit; fleet_.now() < end && !condition();) fleet_.run_for(1s);

@@ -66,14 +66,14 @@ TEST_F(ExchangeTest, RowsThatAreGivenAwayAreToldSentAndSurviveARestart) {
   exchange_.on_local_order(RowOrder{{}, kSelf, kPeer, kSelf, 7}, kStart);
   ASSERT_EQ(taken<RowsOrdered>().size(), 1u);
   ASSERT_EQ(exchange_.row_orders().size(), 1u);
-  const RowOrder given = exchange_.row_orders()[0];
-  EXPECT_NE(given.stamp, Stamp{});
+  const RowOrder order = exchange_.row_orders()[0];
+  EXPECT_NE(order.stamp, Stamp{});
   const auto out = sent<Hold>(kStart);
   ASSERT_EQ(out.size(), 1u);
-  EXPECT_EQ(std::get<Hold>(out[0].message).rows, std::vector{given});
+  EXPECT_EQ(std::get<Hold>(out[0].message).rows, std::vector{order});
   Hold back;
   back.from = kStranger;
-  back.rows = {{given.stamp, kPeer, kThird, kStranger, 9}};
+  back.rows = {{order.stamp, kPeer, kThird, kStranger, 9}};
   exchange_.on_message(back, kStart);
   const auto told = taken<RowsOrdered>();
   ASSERT_EQ(told.size(), 1u);

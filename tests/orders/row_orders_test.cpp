@@ -29,15 +29,15 @@ TEST(RowOrders, TheLatestOrderForARowIsInForce) {
 }
 
 TEST(RowOrders, AllRobotsKeepTheSameOnesInWhicheverOrderTheyCome) {
-  std::vector<RowOrder> given;
+  std::vector<RowOrder> all;
   for (std::uint32_t row = 0; row < 20; ++row)
-    given.push_back(row_order(row, static_cast<int>(row * 7 % 20)));
-  given.push_back(row_order(3, 30, "r3"));
-  given.push_back(row_order(3, 30, ""));  // two operators at once
+    all.push_back(row_order(row, static_cast<int>(row * 7 % 20)));
+  all.push_back(row_order(3, 30, "r3"));
+  all.push_back(row_order(3, 30, ""));  // two operators at once
   RowOrders first, second;
-  for (const RowOrder& one : given) first.add(one);
-  std::ranges::reverse(given);
-  for (const RowOrder& one : given) second.add(one);
+  for (const RowOrder& one : all) first.add(one);
+  std::ranges::reverse(all);
+  for (const RowOrder& one : all) second.add(one);
   EXPECT_EQ(first.all(), second.all());
   EXPECT_EQ(first.all().size(), messages::Hold::kMaxRows);
   EXPECT_FALSE(first.more_than(second.all()));

@@ -2,8 +2,8 @@
 export const calls = (globalThis.mapCalls ??= []);
 const note =
   (name) =>
-  (...given) =>
-    void calls.push([name, ...given]);
+  (...args) =>
+    void calls.push([name, ...args]);
 
 export class FleetMap {
   layers = {points: true, paths: true, nodes: true, used: true, unused: true, rejected: true};

@@ -71,20 +71,20 @@ try {
 
   // Held on its way home: one button, which lets it go on home.
   show({called_home: true, ordered_to_hold: true});
-  const seen = [...card('r2').querySelectorAll('h3 button')].filter((one) => !one.hidden);
+  const buttons = [...card('r2').querySelectorAll('h3 button')].filter((one) => !one.hidden);
   assert.deepEqual(
-    seen.map((one) => one.getAttribute('aria-label')),
+    buttons.map((one) => one.getAttribute('aria-label')),
     ['Resume r2 on its way home'],
   );
-  assert.equal(await press(seen[0]), 'Ordered: resume r2. It goes on home; another resume, 60 s later, ends that.');
+  assert.equal(await press(buttons[0]), 'Ordered: resume r2. It goes on home; another resume, 60 s later, ends that.');
   assert.equal(asked.at(-1), 'POST /operator/resume?robot=r2');
 
   // A second press before the next status is none.
-  assert.equal(seen[0].disabled, true);
+  assert.equal(buttons[0].disabled, true);
   page.intervals[0]();
-  assert.equal(seen[0].disabled, true, 'time alone tells nothing new');
+  assert.equal(buttons[0].disabled, true, 'time alone tells nothing new');
   show({called_home: true});
-  assert.equal(seen[0].disabled, false);
+  assert.equal(buttons[0].disabled, false);
 
   // Rows are given to one robot or to any.
   show({rows: [7, 9]});

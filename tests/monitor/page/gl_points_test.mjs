@@ -17,7 +17,7 @@ const renderer = {
   setRenderTarget: (next) => (target = next),
   setClearColor: (colour, alpha) => calls.push(['colour', colour, alpha]),
   clear: () => calls.push(['clear', target]),
-  render: (scene, seen) => calls.push(['render', target, scene.children, seen]),
+  render: (scene, camera) => calls.push(['render', target, scene.children, camera]),
 };
 const points = new GlPoints(pool, renderer);
 const picture = points.render({camera, width: 30, height: 20});

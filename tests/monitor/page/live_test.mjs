@@ -5,7 +5,7 @@ import {pageModule} from './page_module.mjs';
 const {follow} = await pageModule(process.argv[2], 'live');
 const sockets = [],
   waits = [],
-  seen = [],
+  events = [],
   errors = [];
 let again, watch, answer;
 globalThis.location = {host: 'robot:8080'};
@@ -41,34 +41,34 @@ try {
   follow({
     onState(state) {
       if (broken) throw new Error('no number');
-      seen.push(['state', state.title]);
+      events.push(['state', state.title]);
     },
-    onLive: (live) => seen.push(['live', live.self]),
-    onConnection: (trouble) => seen.push(trouble),
+    onLive: (live) => events.push(['live', live.self]),
+    onConnection: (trouble) => events.push(trouble),
   });
   assert.equal(sockets[0].address, 'ws://robot:8080/live');
   sockets[0].tell({});
-  assert.deepEqual(seen, [], 'nothing was published yet');
+  assert.deepEqual(events, [], 'nothing was published yet');
   sockets[0].tell({title: 'a', nodes: []});
   assert.equal(watch, undefined, 'a finished run may be silent');
   sockets[0].tell({live: {self: 'r1'}});
-  assert.deepEqual(seen, [['state', 'a'], '', ['live', 'r1'], '']);
+  assert.deepEqual(events, [['state', 'a'], '', ['live', 'r1'], '']);
 
   // A state that the page cannot show is said, and the next one is shown.
   broken = true;
   sockets[0].tell({title: 'b', nodes: []});
-  assert.match(seen.at(-1), /cannot show the newest state \(no number\); reload/);
+  assert.match(events.at(-1), /cannot show the newest state \(no number\); reload/);
   sockets[0].tell('{"nodes": [');
-  assert.match(seen.at(-1), /cannot show/);
+  assert.match(events.at(-1), /cannot show/);
   assert.equal(errors.length, 2);
   broken = false;
   sockets[0].tell({title: 'c', nodes: []});
-  assert.deepEqual(seen.slice(-2), [['state', 'c'], '']);
+  assert.deepEqual(events.slice(-2), [['state', 'c'], '']);
 
   // A robot that falls silent without closing: its status is due each second.
   sockets[0].tell({live: {self: 'r1'}});
   watch();
-  assert.match(seen.at(-1), /connection is lost/);
+  assert.match(events.at(-1), /connection is lost/);
   assert.ok(sockets[0].closed && sockets[0].onclose === null);
   again();
   assert.equal(sockets.length, 2);
@@ -79,11 +79,11 @@ try {
   for (let k = 0; k < 7; ++k) {
     sockets.at(-1).onclose();
     await settled();
-    assert.notEqual(seen.at(-1), '');
+    assert.notEqual(events.at(-1), '');
     again();
   }
   assert.deepEqual(waits, [500, 1000, 2000, 4000, 8000, 10_000, 10_000]);
-  assert.match(seen.at(-1), /does not answer: is it running/);
+  assert.match(events.at(-1), /does not answer: is it running/);
 
   // A refusal comes with its reason, and goes when something comes.
   for (const [status, text] of [
@@ -93,16 +93,16 @@ try {
     answer = refused(status, text);
     sockets.at(-1).onclose();
     await settled();
-    assert.equal(seen.at(-1), `Refused: ${text}. This page tries again.`);
+    assert.equal(events.at(-1), `Refused: ${text}. This page tries again.`);
     again();
   }
   answer = refused(426, 'x');
   sockets.at(-1).onclose();
   await settled();
-  assert.match(seen.at(-1), /connection is lost/);
+  assert.match(events.at(-1), /connection is lost/);
   again();
   sockets.at(-1).tell({title: 'e', nodes: []});
-  assert.equal(seen.at(-1), '');
+  assert.equal(events.at(-1), '');
   sockets.at(-1).onclose();
   assert.equal(waits.at(-1), 500);
 } finally {

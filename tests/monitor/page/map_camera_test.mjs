@@ -19,7 +19,7 @@ const pixel = (eye, p) => {
   const {x, y} = p.clone().project(eye.camera);
   return [400 + 400 * x, 200 - 200 * y];
 };
-const near = ([ax, ay], [bx, by], most = 0.5) => Math.hypot(ax - bx, ay - by) < most;
+const near = ([ax, ay], [bx, by], max = 0.5) => Math.hypot(ax - bx, ay - by) < max;
 const corners = [
   [100, 200],
   [400, 200],

@@ -78,7 +78,7 @@ try {
     for (const act of page.frames.splice(0)) act(time);
     return pictures.length - before;
   };
-  const settle = async () => {
+  const drawAll = async () => {
     for (let k = 0; k < 20; ++k) {
       await new Promise((next) => setImmediate(next));
       frames(100);
@@ -94,7 +94,7 @@ try {
   // Its points come, all of them are drawn, and then nothing more is drawn.
   assert.equal(frames(), 0, 'nothing is there');
   map.show(fleet());
-  await settle();
+  await drawAll();
   const last = pictures.at(-1);
   assert.equal(last.drawn, 4 * 500);
   assert.equal(last.total, 4 * 500);
@@ -110,7 +110,7 @@ try {
   assert.equal(map.submaps.all.get(first.submap).floating, 2);
   map.show(fleet());
   assert.equal(map.submaps.all.get(first.submap).floating, undefined);
-  await settle();
+  await drawAll();
   // Points have their robot's colour, also where it changes; a theme is a picture.
   const coloursOfBlocks = () => {
     const found = new Set();
@@ -127,10 +127,10 @@ try {
       ]),
     }),
   );
-  await settle();
+  await drawAll();
   assert.deepEqual(coloursOfBlocks(), ['1,2,3', '47,125,225']);
   map.show(fleet());
-  await settle();
+  await drawAll();
   map.setDark(true);
   assert.equal(frames(), 1);
   map.setDark(false);
@@ -184,7 +184,7 @@ try {
       nodes: fleet().nodes.map((one) => (one.robot === 'r2' ? {...one, T: [one.T[0] + 3, ...one.T.slice(1)]} : one)),
     }),
   );
-  await settle();
+  await drawAll();
   assert.ok(
     map
       .place('r2#1')
@@ -239,7 +239,7 @@ try {
   map.show(fleet({nodes: fleet().nodes.slice(0, 1), alignments: [], registrations: []}));
   map.eye.setPlanar(true);
   frames();
-  await settle();
+  await drawAll();
   assert.equal(pictures.at(-1).total, 500);
   assert.ok(pictures.at(-1).planar);
   assert.equal(map.place('r2#0'), undefined);

@@ -9,11 +9,11 @@ const {Measure} = await pageModule(process.argv[2], 'measure');
 const {Vector3} = await three(process.argv[2]);
 const overlay = document.getElementById('overlay');
 let next = new Vector3(0, 0, 0);
-let seen = true;
+let visible = true;
 let floating;
 const map = {
   pointAt: () => next && {p: next.clone(), submap: {floating}},
-  project: (p) => (seen ? {x: 10 * p.x, y: 10 * p.y, depth: 0} : undefined),
+  project: (p) => (visible ? {x: 10 * p.x, y: 10 * p.y, depth: 0} : undefined),
 };
 let card;
 const measure = new Measure(map, overlay, (content) => (card = content));
@@ -39,10 +39,10 @@ assert.deepEqual(
   ['x1', 'y1', 'x2', 'y2'].map((name) => overlay.firstElementChild.getAttribute(name)),
   ['0', '0', '30', '40'],
 );
-seen = false;
+visible = false;
 measure.draw();
 assert.deepEqual(shapes(), [], 'behind the camera');
-seen = true;
+visible = true;
 click(1, 1, 1);
 assert.doesNotMatch(text(), /distance/, 'a third point begins anew');
 

@@ -1,11 +1,11 @@
-// Shading of a picture of points (src/monitor/page/shading.ts): what its shader is given.
+// Shading of a picture of points (src/monitor/page/shading.ts): the uniforms of its shader.
 import assert from 'node:assert/strict';
 import {pageModule, three} from './page_module.mjs';
 
 const {Shading} = await pageModule(process.argv[2], 'shading');
 const {OrthographicCamera, PerspectiveCamera, Texture} = await three(process.argv[2]);
 const picture = {colours: new Texture(), depths: new Texture()};
-const given = (camera, shaded) => {
+const uniformsOf = (camera, shaded) => {
   let values;
   const render = (scene) => {
     const {material} = scene.children[0];
@@ -20,12 +20,12 @@ const given = (camera, shaded) => {
   return values;
 };
 
-const far = given(new PerspectiveCamera(50, 2, 0.5, 900), true);
+const far = uniformsOf(new PerspectiveCamera(50, 2, 0.5, 900), true);
 assert.equal(far.colours, picture.colours);
 assert.equal(far.depths, picture.depths);
 assert.deepEqual(far.texel.toArray(), [1 / 200, 1 / 100]);
 assert.deepEqual([far.near, far.far, far.planar, far.pixelAtOne, far.radius], [0.5, 900, 0, 0.01, 2]);
 assert.ok(far.strength > 0);
-const plan = given(new OrthographicCamera(-1, 1, 1, -1, 1, 50), false);
+const plan = uniformsOf(new OrthographicCamera(-1, 1, 1, -1, 1, 50), false);
 assert.equal(plan.planar, 1, 'depths of a plan are linear');
 assert.equal(plan.strength, 0, 'colours as they are');

@@ -35,12 +35,12 @@ class AisleWorld {
   }
 
   std::vector<Eigen::Vector2d> scan() const {
-    std::vector<Eigen::Vector2d> seen;
+    std::vector<Eigen::Vector2d> visible;
     const Eigen::Rotation2Dd back(-truth.yaw);
     for (const Eigen::Vector2d& p : points) {
-      if ((p - truth.position).squaredNorm() < 100.0) seen.push_back(back * (p - truth.position));
+      if ((p - truth.position).squaredNorm() < 100.0) visible.push_back(back * (p - truth.position));
     }
-    return seen;
+    return visible;
   }
 
   /// A step of the chassis: it needs about 0.3 s to follow a command.

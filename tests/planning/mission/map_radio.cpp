@@ -37,14 +37,14 @@ std::vector<std::size_t> MapRadio::even_with(std::size_t k) const {
 
 bool MapRadio::all_hold_all() const {
   for (std::size_t map = 0; map < robots_.size(); ++map) {
-    double most = 0.0;
-    double least = 1e300;
+    double max_held = 0.0;
+    double min_held = 1e300;
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       if (!robots_[k].alive) continue;
-      most = std::max(most, holds_[k][map]);
-      least = std::min(least, holds_[k][map]);
+      max_held = std::max(max_held, holds_[k][map]);
+      min_held = std::min(min_held, holds_[k][map]);
     }
-    if (most > least + 1.0) return false;
+    if (max_held > min_held + 1.0) return false;
   }
   return true;
 }
@@ -54,11 +54,11 @@ bool MapRadio::near(std::size_t a, std::size_t b) const {
 }
 
 bool MapRadio::fetch(std::size_t k, std::size_t map) {
-  double most = holds_[k][map];
+  double max_held = holds_[k][map];
   for (std::size_t other = 0; other < robots_.size(); ++other) {
-    if (other != k && near(k, other)) most = std::max(most, holds_[other][map]);
+    if (other != k && near(k, other)) max_held = std::max(max_held, holds_[other][map]);
   }
-  const double bytes = std::min(kPacket, most - holds_[k][map]);
+  const double bytes = std::min(kPacket, max_held - holds_[k][map]);
   holds_[k][map] += bytes;
   credit_ -= bytes;
   return bytes > 0.0;

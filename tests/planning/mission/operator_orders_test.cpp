@@ -98,13 +98,13 @@ TEST_P(OperatorOrders, TheRowOfAReceiverThatFailsIsNotLost) {
     });
     if (before) expect_all_driven();
     fleet_.emplace(plan_, kLoss, GetParam());
-    double given = kLimit;
+    double ordered_at = kLimit;
     fleet_->run(kLimit, [&] {
-      if (given == kLimit && fleet_->now >= 30.0 && report(0).claimed.count() > 1) {
+      if (ordered_at == kLimit && fleet_->now >= 30.0 && report(0).claimed.count() > 1) {
         fleet_->give(row = waiting(), 0, 2);
-        given = fleet_->now;
+        ordered_at = fleet_->now;
       }
-      if (fleet_->now == given + 25.0) fleet_->kill(2);
+      if (fleet_->now == ordered_at + 25.0) fleet_->kill(2);
     });
     expect_all_driven();
   }
