@@ -1,13 +1,16 @@
 #include "fleetmap/output/csv_line.hpp"
 
-#include <sstream>
-
 namespace fleetmap::output {
 
 std::vector<std::string> csv_cells(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line);
-  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  if (line.empty()) return {};
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',')
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
   return cells;
 }
 

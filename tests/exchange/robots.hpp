@@ -11,8 +11,8 @@ using testing::kStart;
 using testing::kThird;
 
 /// A robot of another fleet.
-inline const AgentId kStranger = testing::agent("x");
+const AgentId kStranger = testing::agent("x");
 /// The robot that made the items that kPeer holds.
-inline const AgentId kMaker = kThird;
+const AgentId kMaker = kThird;
 
 }  // namespace fleetmap::exchange

@@ -6,8 +6,8 @@
 
 namespace fleetmap::fault_injection {
 
-inline const std::vector<AgentId> kFleet{fleetmap::testing::kSelf, fleetmap::testing::kPeer,
-                                         fleetmap::testing::kThird};
+const std::vector<AgentId> kFleet{fleetmap::testing::kSelf, fleetmap::testing::kPeer,
+                                  fleetmap::testing::kThird};
 inline constexpr Stamp kNow = fleetmap::testing::kStart;
 
 }  // namespace fleetmap::fault_injection

@@ -8,6 +8,7 @@ namespace {
 TEST(CsvLine, CellsMayBeEmpty) {
   EXPECT_EQ(csv_cells("a,,1.5"), (std::vector<std::string>{"a", "", "1.5"}));
   EXPECT_EQ(csv_cells(",b"), (std::vector<std::string>{"", "b"}));
+  EXPECT_EQ(csv_cells("a,"), (std::vector<std::string>{"a", ""}));
   EXPECT_TRUE(csv_cells("").empty());
 }
 
