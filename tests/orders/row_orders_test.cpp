@@ -30,8 +30,7 @@ TEST(RowOrders, TheLatestOrderForARowIsInForce) {
 
 TEST(RowOrders, AllRobotsKeepTheSameOnesInWhicheverOrderTheyCome) {
   std::vector<RowOrder> all;
-  for (std::uint32_t row = 0; row < 20; ++row)
-    all.push_back(row_order(row, static_cast<int>(row * 7 % 20)));
+  for (std::uint32_t row = 0; row < 20; ++row) all.push_back(row_order(row, static_cast<int>(row * 7 % 20)));
   all.push_back(row_order(3, 30, "r3"));
   all.push_back(row_order(3, 30, ""));  // two operators at once
   RowOrders first, second;
