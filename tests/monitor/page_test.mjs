@@ -16,7 +16,13 @@ async function mapIsDrawn(page) {
     null,
     {timeout: 100_000},
   );
-  const pixels = await pixelsOfMap(page);
+  // A view that has just moved is coarse until it stands still.
+  let pixels;
+  const end = Date.now() + 20_000;
+  do {
+    await page.waitForFunction(() => !document.getElementById('map').classList.contains('coarse'));
+    pixels = await pixelsOfMap(page);
+  } while ((pixels.covered <= 0.1 || pixels.colours <= 30) && Date.now() < end);
   assert.ok(pixels.covered > 0.1, `only ${pixels.covered} of the map's pixels are drawn`);
   assert.ok(pixels.colours > 30, `only ${pixels.colours} colours: the points are not shaded`);
 }
