@@ -114,7 +114,10 @@ std::vector<std::string> SensorHealth::take_warnings() {
 
 bool SensorHealth::check(Imu& imu) {
   check_gaps(imu.stamp);
-  if (!last_scan_) silences_.pass(imu.stamp, std::nullopt);
+  if (!last_scan_) {
+    silences_.pass(imu.stamp, std::nullopt);
+    state_silences();
+  }
   correct_force(imu);
   check_gravity(imu);
   if (!correct_rate(imu)) return refuse();
@@ -130,15 +133,16 @@ void SensorHealth::set_imu_rotation(const Eigen::Quaterniond& q_base_imu) {
 void SensorHealth::check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base) {
   if (!T_odom_base) {
     silences_.pass_lost(stamp);
+    state_silences();
     motion_.interrupt();
     return gps_.interrupt();
   }
   silences_.pass(stamp, Eigen::Vector3d(T_odom_base->translation()));
+  state_silences();
   motion_.add_motion(stamp, *T_odom_base);
   gps_.add_motion(stamp, *T_odom_base);
   for (std::string& finding : motion_.take_findings()) state(std::move(finding));
   for (std::string& finding : gps_.take_findings()) state(std::move(finding));
-  for (std::string& finding : silences_.take_findings()) state(std::move(finding));
 }
 
 void SensorHealth::check_gaps(Stamp stamp) {

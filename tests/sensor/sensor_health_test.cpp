@@ -15,6 +15,7 @@
 namespace fleetmap::sensor {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -273,6 +274,26 @@ TEST(SensorHealth, FixesThatRiseAreCorrectedAndOnesThatEndAreNoted) {
   }
   EXPECT_THAT(health.findings(), ElementsAre(HasSubstr("its height jumped by 40 m")));
   EXPECT_THAT(health.gaps(), ElementsAre("GPS: no fix from 80 s to 100 s of the drive, its end"));
+}
+
+TEST(SensorHealth, FixesThatEndAreFoundWithoutALidarAndWhileTheOdometryIsLost) {
+  for (const bool has_lidar : {false, true}) {
+    SensorHealth health;
+    for (int k = 0; k < 1000; ++k) {
+      if (k % 2 == 0 && k < 200) {
+        Fix fix{.stamp = at(0.1 * k), .position = {0.7, -0.1, 600.0}};
+        EXPECT_TRUE(health.check(fix));
+      }
+      Imu imu;
+      imu.stamp = at(0.1 * k);
+      imu.specific_force = {0.0, 0.0, 9.81};
+      health.check(imu);
+      if (!has_lidar) continue;
+      health.check_scan(at(0.1 * k), std::chrono::milliseconds(98));
+      health.check_motion(at(0.1 * k), std::nullopt);
+    }
+    EXPECT_THAT(health.findings(), Contains(HasSubstr("GPS: no fix since 20 s"))) << has_lidar;
+  }
 }
 
 TEST(SensorHealth, GroundThatIsTiltedInTheMedianOfManyScansNamesTheMount) {

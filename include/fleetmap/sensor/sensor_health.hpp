@@ -67,6 +67,9 @@ class SensorHealth {
   std::uint64_t missing_scans() const { return missing_scans_; }
 
  private:
+  void state_silences() {
+    for (std::string& finding : silences_.take_findings()) state(std::move(finding));
+  }
   void correct_force(Imu& imu);
   void check_gravity(const Imu& imu);
   void check_gaps(Stamp stamp);
