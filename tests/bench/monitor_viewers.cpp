@@ -50,7 +50,7 @@ class OpenPage {
       const auto message = nlohmann::json::parse(browser_.message(), nullptr, false);
       if (message.is_discarded()) return;
       if (message.contains("live")) ++statuses;
-      if (!message.contains("nodes")) continue;
+      if (!message.contains("nodes") || message["nodes"].empty()) continue;
       ++states;
       const auto& last = message["nodes"].back();
       if (!last.contains("submap")) continue;
@@ -77,8 +77,8 @@ struct Robot {
     monitor::ServerConfig config;
     config.max_viewers = kViewers;
     page = apps::LiveMonitor::start(
-               config, [folder] { return std::vector{folder}; },
-               [folder] { return apps::open_one(folder / "store.db"); }, true)
+               config, [store = folder / "store.db"] { return std::vector{store}; },
+               [store = folder / "store.db"] { return apps::open_one(store); }, true)
                .value();
     publisher.emplace(robot.agent(), robot.bus(), page->server(), "nobody",
                       [](const auto&) { return false; });
@@ -140,7 +140,8 @@ int measure(int pairs) {
               quantile(ratios, 0.25), quantile(ratios, 0.5), quantile(ratios, 0.75));
   std::printf("the viewers read %lu statuses, %lu states and %lu submaps\n", OpenPage::statuses.load(),
               OpenPage::states.load(), OpenPage::submaps.load());
-  return OpenPage::statuses > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  const bool all_read = OpenPage::statuses > 0 && OpenPage::states > 0 && OpenPage::submaps > 0;
+  return all_read ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace
