@@ -2,7 +2,8 @@
 # Makes Debian packages in build/release from a release build: fleetmap, fleetmap-twin, fleetmap-gis and fleetmap-dev.
 #   deploy/package.sh
 #   deploy/package.sh --test    also installs them into a clean Debian 12 (debootstrap, root), runs a fleet and Ansible's
-#                               role there, compiles a program with the libraries, and has systemd check the service
+#                               role there, compiles a program with the libraries, and boots it with systemd, whose
+#                               service must map, survive a hang and a crash, and go on
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -86,9 +87,12 @@ in_debian fleetmap check-config /etc/fleetmap/r1.yaml
 in_debian fleetmap check-config /etc/fleetmap/r3.yaml
 refuse "a wrong setting is taken" play r1 -e '{"fleetmap_settings": {"lidar": {"modell": "vlp16"}}}'
 grep -q "did you mean 'model'" "$debian/tmp/play.log"
-# systemd itself is not among the dependencies, so the service is checked by that of this machine.
+# The unit as such is checked by this machine's systemd, which is not among the dependencies.
 service=$debian/tmp/fleetmap-agent@r1.service
 sed "s#/usr/bin/fleetmap#$root/build/release/bin/fleetmap#" "$debian/usr/lib/systemd/system/fleetmap-agent@.service" > "$service"
 systemd-analyze verify --man=no "$service"
 systemd-analyze security --offline=yes --threshold=29 "$service" | tail -n 1
+install_in_debian systemd-sysv dbus
+cp -r "$debian/tmp/recordings/r1" "$debian/srv/drive"  # a boot empties /tmp
+./deploy/package/service_test.sh "$debian" /srv/drive
 echo "package: ok"

@@ -66,11 +66,11 @@ class MappedFile {
 };
 
 float number_at(const char* raw, NumberType type, bool swap) {
-  std::array<char, 8> bytes{};
-  std::copy_n(raw, size_of(type), bytes.begin());
-  if (swap) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size_of(type)));
-  const auto as = [&bytes](auto value) {
-    std::memcpy(&value, bytes.data(), sizeof value);
+  const auto as = [raw, swap](auto value) {
+    std::array<char, sizeof value> bytes{};
+    std::copy_n(raw, bytes.size(), bytes.begin());
+    if (swap) std::reverse(bytes.begin(), bytes.end());
+    std::memcpy(&value, bytes.data(), bytes.size());
     return static_cast<float>(value);
   };
   switch (type) {

@@ -76,7 +76,7 @@ Result<LidarModel> lidar_model(std::string_view name) {
     if (model.name == name) return model;
     append_to_list(known, model.name);
   }
-  return failure("lidar.model: '" + std::string(name) + "' is unknown; expected one of " + known);
+  return failure("'" + std::string(name) + "' is unknown; expected one of " + known);
 }
 
 }  // namespace fleetmap::odometry

@@ -53,8 +53,8 @@ TEST(LidarModels, NamesThatDoNotExistAreToldThoseThatDo) {
   for (const char* name : {"vlp32", "", "VLP16", "os1"}) {
     const auto model = lidar_model(name);
     ASSERT_FALSE(model) << name;
-    EXPECT_EQ(model.error().message, "lidar.model: '" + std::string(name) +
-                                         "' is unknown; expected one of vlp16, os1-64, hdl64e, generic");
+    EXPECT_EQ(model.error().message,
+              "'" + std::string(name) + "' is unknown; expected one of vlp16, os1-64, hdl64e, generic");
   }
 }
 
