@@ -135,9 +135,13 @@ compare() {  # STORE FILE SUBCOMMAND: what `fleetmap map SUBCOMMAND STORE --out 
   mkdir -p "$tmp/there" "$tmp/here"
   arm map "$3" "/tmp/$1" --out "/tmp/there/$2" > "$scratch/map.log" || { cat "$scratch/map.log"; exit 1; }
   "$here" map "$3" "$tmp/$1" --out "$tmp/here/$2" > "$scratch/map.log" || { cat "$scratch/map.log"; exit 1; }
-  if cmp "$tmp/there/$2" "$tmp/here/$2"; then
-    echo "$1, map $3: the same $(stat -c %s "$tmp/here/$2") bytes"
+  if cmp -s "$tmp/there/$2" "$tmp/here/$2"; then
+    echo "$1, $2: the same $(stat -c %s "$tmp/here/$2") bytes"
+  elif [[ $2 == *.las ]] && python3 deploy/package/las_units.py "$tmp/there/$2" "$tmp/here/$2" > "$scratch/las.log"; then
+    echo "$1, $2: $(cat "$scratch/las.log")"
   else
+    cmp "$tmp/there/$2" "$tmp/here/$2" || true
+    cat "$scratch/las.log" 2> /dev/null || true
     differs=1
   fi
 }

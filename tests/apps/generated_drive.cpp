@@ -84,7 +84,7 @@ std::filesystem::path GeneratedDrive::write(const std::string& name, const Recor
                           ? std::visit([](const auto& s) { return ros_codec::encode(s); }, one.sample)
                           : one.cdr;
     const bus::Topic& topic = topics.at(one.sample.index());
-    EXPECT_TRUE(writer->write(topic.name, topic.type, one.received, cdr));
+    EXPECT_TRUE(writer->write(one.topic.empty() ? topic.name : one.topic, topic.type, one.received, cdr));
   }
   EXPECT_TRUE(writer->close());
   return bag;

@@ -19,6 +19,7 @@ struct Combination {
   std::function<void(Recording&)> change;
   double max_shape;  ///< m
   double max_place;  ///< m
+  std::vector<std::string> settings = testing::kGeneratedMount;
 };
 
 // GPS of the drive is off by up to 3.4 m, slowly, so that every place is within that; its sigma is 1.5 m an
@@ -41,6 +42,25 @@ void gps_of_1_hz(Recording& recording) {
   std::erase_if(recording, [&](const Recorded& one) {
     return std::holds_alternative<sensor::Fix>(one.sample) && number++ % 5 != 0;
   });
+}
+
+/// A second wheel odometry, which is wrong: it must be of no effect where the first is named.
+void with_other_wheels(Recording& recording) {
+  Recording both;
+  for (const Recorded& one : recording) {
+    both.push_back(one);
+    const auto* wheel = std::get_if<sensor::Wheel>(&one.sample);
+    if (wheel == nullptr) continue;
+    sensor::Wheel other = *wheel;
+    other.forward_speed *= 1.5;
+    both.push_back({other, one.received, {}, "rt/odom"});
+  }
+  recording = std::move(both);
+}
+
+std::vector<std::string> with_settings(std::vector<std::string> settings) {
+  settings.insert(settings.end(), testing::kGeneratedMount.begin(), testing::kGeneratedMount.end());
+  return settings;
 }
 
 using SensorCombinations = testing::GeneratedDrive;
@@ -66,12 +86,14 @@ TEST_F(SensorCombinations, EachHasItsAccuracy) {
        },
        kShape, kNoGps},
       {"GPS of 1 Hz", gps_of_1_hz, kShape, kSlowGps},
+      {"two wheel odometries", with_other_wheels, kShape, kSlowGps,
+       with_settings({"--set", "recording.topics.wheel=/wheel_odometry"})},
   };
   for (const Combination& combination : all) {
     SCOPED_TRACE(combination.name);
     Recording recording = good_;
     combination.change(recording);
-    const Outcome outcome = run(combination.name, recording);
+    const Outcome outcome = run(combination.name, recording, combination.settings);
     std::cout << std::left << std::setw(26) << combination.name << std::fixed << std::setprecision(3)
               << "shape " << outcome.shape << " m, place " << outcome.place << " m\n";
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;

@@ -15,7 +15,8 @@ namespace fleetmap::testing {
 struct Recorded {
   recording::Sample sample;
   Stamp received;
-  Bytes cdr = {};  ///< in place of the sample's own encoding, if it is not empty
+  Bytes cdr = {};          ///< in place of the sample's own encoding, if it is not empty
+  std::string topic = {};  ///< in place of that of its type, if it is not empty
 };
 using Recording = std::vector<Recorded>;
 
