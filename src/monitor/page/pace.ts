@@ -10,9 +10,10 @@ const kSlow_ms = 33; // 30 frames/s
 const kFast_ms = 18;
 const kGoal_ms = 25;
 const kSteady = 8; // fast frames before the effort grows
-const kLevels = 3;
+const kLevels = 4;
+const kSlowLevel = 2;
 const kMinShare = 1 / 4;
-const kCoarse = 0.6; // pixels that are drawn along a side, of those that there are
+const kCoarse = [0.6, 0.5]; // of levels 2 and 3: pixels that are drawn along a side, of those that there are
 export const kStill_ms = 180; // without a change: the view stands still
 const kStillShare = 1 / 4; // of the time that drawing a still view may take
 const kMaxRest_ms = 1000;
@@ -24,7 +25,7 @@ const kMaxRest_ms = 1000;
  * Pictures of what arrives while the view stands still leave three quarters of the time to the rest of the page.
  */
 export class Pace {
-  private level: number; // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
+  private level: number; // 1: without shading; 2, 3: with fewer pixels and no nodes; 4: and with a share of the points
   private share = 1;
   private fast = 0;
   private last?: number;
@@ -39,7 +40,7 @@ export class Pace {
     private minShare = kMinShare,
     slow = false,
   ) {
-    this.level = slow ? kLevels - 1 : 0;
+    this.level = slow ? kSlowLevel : 0;
   }
 
   /** The effort of the frame at `now`, ms. */
@@ -55,7 +56,7 @@ export class Pace {
     return {
       shaded: false,
       detailed: this.level < 2,
-      ratio: this.level < 2 ? ratio : kCoarse * ratio,
+      ratio: this.level < 2 ? ratio : kCoarse[Math.min(this.level - 2, 1)] * ratio,
       share: this.share,
     };
   }

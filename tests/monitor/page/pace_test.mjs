@@ -22,6 +22,7 @@ const efforts = frames(slow, 12, 100);
 assert.deepEqual(efforts[0], full, 'the first frame tells nothing of its time');
 assert.deepEqual(efforts[1], {shaded: false, detailed: true, ratio: 1, share: 1});
 assert.ok(!efforts[2].shaded && !efforts[2].detailed && efforts[2].ratio < 1 && efforts[2].share === 1);
+assert.ok(efforts[3].ratio < efforts[2].ratio && efforts[3].share === 1, 'pixels before points');
 assert.ok(efforts.at(-1).share < 1 && efforts.at(-1).share >= 0.25, 'a picture of too few points shows nothing');
 assert.deepEqual(slow.effort((now += 200), false), full);
 
