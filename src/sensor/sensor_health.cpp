@@ -284,7 +284,7 @@ bool SensorHealth::check(Fix& fix) {
   if (!somewhere && fix.valid) return refuse();
   const bool flat = somewhere && !std::isfinite(p.altitude);
   if (!flat) {
-    if (fix.valid) silences_.add_fix(fix.stamp);
+    fix.valid ? silences_.add_fix(fix.stamp) : silences_.add_empty_fix();
     gps_.add(fix);
     fix.position.altitude -= gps_.height_correction();
     return true;

@@ -19,12 +19,14 @@ std::string from_to(double from, double to) {
 }  // namespace
 
 SilenceRule fix_silence() {
-  return {.sensor = "GPS: no fix",
-          .found_after = 60.0,
-          .found_in_one = 600.0,
-          .remedy =
-              "the place is that of the odometry there. Outages below trees and roofs are normal; else check "
-              "antenna, cable and driver"};
+  return {
+      .sensor = "GPS: no fix",
+      .found_after = 60.0,
+      .found_in_one = 600.0,
+      .remedy = "the place is that of the odometry there. No message came: check cable, driver and its topic",
+      .empty_remedy =
+          "the place is that of the odometry there. Outages below trees and roofs are normal; else check "
+          "the antenna and its cable"};
 }
 
 SilenceRule wheel_silence() {
@@ -34,7 +36,8 @@ SilenceRule wheel_silence() {
           .found_share = 0.1,
           .found_after = 3.0,
           .found_in_one = 30.0,
-          .remedy = "the speed is not measured there. Check the cable, the driver and its topic"};
+          .remedy = "the speed is not measured there. Check the cable, the driver and its topic",
+          .empty_remedy = {}};
 }
 
 void StreamSilence::add(Stamp stamp) {
@@ -48,6 +51,7 @@ void StreamSilence::add(Stamp stamp) {
   if (!first_at_) first_at_ = now_;
   last_at_ = now_;
   moved_ = 0.0;
+  empty_ = 0;
   if (usual_interval_ || !before || stamp <= *before) return;
   first_intervals_.push_back(to_seconds(stamp - *before));
   if (first_intervals_.size() < kIntervalsOfRate) return;
@@ -56,10 +60,15 @@ void StreamSilence::add(Stamp stamp) {
   usual_interval_ = *half;
 }
 
+void StreamSilence::add_empty() {
+  if (empty_++ == 0) first_empty_at_ = now_;
+}
+
 void StreamSilence::pass(double seconds, double moved) {
   now_ += seconds;
   moved_ += moved;
   check();
+  check_empty();
 }
 
 bool StreamSilence::is_gap() const {
@@ -74,7 +83,19 @@ void StreamSilence::check() {
   if (!much && open < rule_.found_in_one) return;
   found_ = true;
   finding_ = rule_.sensor + " since " + whole(last_at_) + " s of the drive, for " + whole(open) + " s; " +
-             whole(100.0 * all / drive) + " % of the time is in such gaps: " + rule_.remedy;
+             whole(100.0 * all / drive) + " % of the time is in such gaps: " + reason();
+}
+
+/// Of a sensor that has said nothing yet, although its messages come.
+void StreamSilence::check_empty() {
+  if (found_ || first_at_ || empty_ == 0 || now_ - first_empty_at_ < rule_.found_after) return;
+  found_ = true;
+  finding_ = rule_.sensor + " in the first " + whole(now_ - first_empty_at_) + " s: " + reason();
+}
+
+std::string StreamSilence::reason() const {
+  if (empty_ == 0) return rule_.remedy;
+  return std::to_string(empty_) + " messages came without a position (status -1); " + rule_.empty_remedy;
 }
 
 std::optional<std::string> StreamSilence::take_finding() { return std::exchange(finding_, std::nullopt); }

@@ -55,6 +55,30 @@ TEST(StreamSilence, AnOutageOfGpsIsANoteWithItsTimes) {
             "GPS: no fix in 2 gaps, together 30 s; the longest is from 80 s to 100 s of the drive, its end");
 }
 
+TEST(StreamSilence, MessagesWithoutAPositionAreToldFromNone) {
+  StreamSilence never(fix_silence()), no_more(fix_silence());
+  for (int k = 0; k < 1000; ++k) {
+    never.pass(0.1, 0.1);
+    no_more.pass(0.1, 0.1);
+    if (k % 2 == 0) never.add_empty();
+    if (k % 2 == 0 && k < 300) no_more.add(at(0.1 * k));
+    if (k % 2 == 0 && k >= 300) no_more.add_empty();
+  }
+  const std::string in_vain = never.take_finding().value_or(""), ended = no_more.take_finding().value_or("");
+  EXPECT_THAT(in_vain,
+              AllOf(HasSubstr("GPS: no fix in the first 60 s: "),
+                    HasSubstr("messages came without a position (status -1)"), HasSubstr("antenna")));
+  EXPECT_EQ(never.take_finding(), std::nullopt);
+  EXPECT_THAT(ended,
+              AllOf(HasSubstr("GPS: no fix since 30 s"), HasSubstr("messages came without a position")));
+  StreamSilence dead(fix_silence());
+  for (int k = 0; k < 1000; ++k) {
+    dead.pass(0.1, 0.1);
+    if (k % 2 == 0 && k < 300) dead.add(at(0.1 * k));
+  }
+  EXPECT_THAT(dead.take_finding().value_or(""), HasSubstr("No message came: check cable, driver"));
+}
+
 TEST(StreamSilence, FixesThatEndAreAFindingWhereThatIsLongForTheDrive) {
   const auto ends_at_20_s = [](double t) { return t < 20.0; };
   auto fixes = PartlyHeardDrive{.seconds = 100.0, .heard = ends_at_20_s}.driven(fix_silence());

@@ -19,6 +19,7 @@ struct SilenceRule {
   double found_after = 10.0;  ///< s in gaps
   double found_in_one = 1e9;  ///< s of one gap, whatever the share
   std::string remedy;
+  std::string empty_remedy;  ///< while messages come that say nothing
 };
 SilenceRule fix_silence();
 SilenceRule wheel_silence();
@@ -29,6 +30,8 @@ class StreamSilence {
  public:
   explicit StreamSilence(SilenceRule rule) : rule_(std::move(rule)) {}
   void add(Stamp stamp);
+  /// A message that says nothing, as that of a receiver without a position.
+  void add_empty();
   /// The drive went on; `moved` is in metres.
   void pass(double seconds, double moved);
   /// Since the last call; once, when gaps have taken too much of the drive.
@@ -43,6 +46,8 @@ class StreamSilence {
   };
   bool is_gap() const;
   void check();
+  void check_empty();
+  std::string reason() const;
 
   SilenceRule rule_;
   std::vector<double> first_intervals_;   ///< s
@@ -51,6 +56,8 @@ class StreamSilence {
   std::optional<double> first_at_;    ///< s of the drive
   double now_ = 0.0, last_at_ = 0.0;  ///< s of the drive
   double moved_ = 0.0;                ///< m since the last sample
+  std::size_t empty_ = 0;             ///< messages since the last sample
+  double first_empty_at_ = 0.0;       ///< s of the drive
   double in_gaps_ = 0.0;              ///< s, of gaps that ended
   std::size_t gaps_ = 0;              ///< that ended
   Gap longest_;                       ///< of these
