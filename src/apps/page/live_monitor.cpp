@@ -9,6 +9,7 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/output/registrations_file.hpp"
+#include "preview_files.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -58,9 +59,6 @@ Result<std::unique_ptr<LiveMonitor>> open_page(const std::optional<monitor::Serv
 }
 
 }  // namespace
-
-fs::path previews_of_store(const fs::path& store) { return store.string() + ".previews"; }
-fs::path previews_of_run(const fs::path& directory) { return directory / "monitor.previews"; }
 
 LiveMonitor::LiveMonitor(Stores stores, Read read) : stores_(std::move(stores)), read_(std::move(read)) {}
 
