@@ -25,7 +25,8 @@ std::string fingerprint(const std::vector<fs::path>& stores) {
   std::ostringstream print;
   for (const fs::path& store : stores) {
     for (const fs::path& file :
-         {store, fs::path(store.string() + "-wal"), store.parent_path() / output::kRegistrationsFile}) {
+         {store, fs::path(store.string() + "-wal"), store.parent_path() / output::kRegistrationsFile,
+          store.parent_path() / "report.json", store.parent_path().parent_path() / "report.json"}) {
       std::error_code missing;
       const auto bytes = fs::file_size(file, missing);
       if (missing) continue;

@@ -28,6 +28,7 @@ struct FleetState {
   std::vector<planning::Row> rows;                       ///< of the mission, in its order
   std::string stop_reason;                               ///< why this robot stands still; empty: it does not
   std::map<AgentId, std::vector<std::string>> problems;  ///< of the robots whose insides are known
+  std::map<AgentId, std::vector<std::string>> totals;    ///< likewise, since they started
 };
 
 /// Activity of a robot by its last report, in words. `heading`: its last one, rad from east, if it is known.
