@@ -76,7 +76,10 @@ void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const L
     std::ranges::move(candidates_of(*other), std::back_inserter(status.candidates));
   }
   status.robots = robot_states(fleet);
-  for (monitor::RobotNow& robot : status.robots) problems_.update(robot, bus_.now());
+  for (monitor::RobotNow& robot : status.robots) {
+    add_silence(status.lost_after_s, robot);
+    problems_.update(robot, bus_.now());
+  }
   status.maps = progress_.add(status.robots, status.self, status.lost_after_s, bus_.now());
   status.sensors = sensors_.add(agent_.perception(), bus_.now());
   add_findings(status.sensors);

@@ -157,6 +157,11 @@ std::string activity_of(const MissionReport& report, const std::vector<planning:
   return fmt::format("{}, {:.0f} % of the rows are driven", words, 100.0 * share);
 }
 
+void add_silence(double lost_after, monitor::RobotNow& robot) {
+  if (!robot.heard.empty() && robot.heard.front().seconds_ago > lost_after)
+    robot.problems.insert(robot.problems.begin(), "is heard on no radio");
+}
+
 std::vector<monitor::RobotNow> robot_states(const FleetState& fleet) {
   std::vector<AgentId> names = fleet.fleet;
   std::ranges::sort(names);

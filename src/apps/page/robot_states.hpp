@@ -35,6 +35,9 @@ struct FleetState {
 std::string activity_of(const messages::MissionReport& report, const std::vector<planning::Row>& rows,
                         std::optional<double> heading);
 
+/// Makes it a problem that a robot was heard, and is silent for longer than `lost_after` (s).
+void add_silence(double lost_after, monitor::RobotNow& robot);
+
 /// Every robot of the fleet, by name.
 std::vector<monitor::RobotNow> robot_states(const FleetState& fleet);
 
