@@ -30,6 +30,12 @@ void keep(std::vector<T>& samples, const T& sample) {
   samples.push_back(sample);
 }
 
+bool is_sound(const sensor::Fix& fix) { return fix.valid; }
+template <class Sample>
+bool is_sound(const Sample&) {
+  return true;
+}
+
 }  // namespace
 
 Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnEstimate on_estimate,
@@ -103,7 +109,9 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
         sample->stamp += clock_offsets_.correction(source);
         const bool sound = health_.check(*sample);
         log_findings();
-        if (sound) use(*sample);
+        if (!sound) return;
+        if (is_sound(*sample)) last_sound_[static_cast<std::size_t>(source)] = bus_.now();
+        use(*sample);
       }));
 }
 

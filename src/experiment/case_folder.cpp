@@ -21,8 +21,8 @@ void remove_large_files(const fs::path& directory) {
        entry.increment(error)) {
     if (!entry->is_regular_file(error) || kept.contains(entry->path().extension().string())) continue;
     const std::string extension = entry->path().extension().string();
-    const bool database =
-        extension == ".db" || extension == ".ply" || extension == ".mcap" || extension == ".db3";
+    const bool database = extension == ".db" || extension == ".ply" || extension == ".mcap" ||
+                          extension == ".db3" || extension == ".previews";
     if (database || entry->file_size(error) > kSmall) large.push_back(entry->path());
   }
   for (const fs::path& file : large) fs::remove(file, error);

@@ -198,6 +198,7 @@ void CandidateScheduler::on_cloud(const NodeId& theirs, Bytes cloud) {
   state_->candidates.for_each([&](const NodePair& pair, ScheduledCandidate& candidate) {
     if (pair.theirs != theirs || candidate.phase != Phase::kRequested) return;
     candidate.phase = Phase::kRegistering;
+    candidate.registered = true;
     candidate.candidate.T_target_source = transform(pair);
     candidate.by_transform = candidate.candidate.T_target_source.has_value();
     received_.push_back({candidate.candidate, cloud});
@@ -304,6 +305,12 @@ CandidateStats CandidateScheduler::stats() const {
   all.overflowed = state_->candidates.overflowed_count();
   all.uninformative = state_->selection.uninformative_count();
   return all;
+}
+
+std::map<AgentId, PeerCandidates> CandidateScheduler::by_peer(Stamp now) const {
+  std::map<AgentId, PeerCandidates> peers = state_->candidates.by_peer();
+  for (auto& [peer, candidates] : peers) candidates.heard = heard(peer, now);
+  return peers;
 }
 
 }  // namespace fleetmap::loop_closure

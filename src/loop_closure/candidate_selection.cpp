@@ -62,7 +62,7 @@ std::optional<CandidateSelection::Selected> CandidateSelection::next(std::vector
   };
   for (std::size_t k = 0; k < ready.size(); ++k) {
     if (information[k] < config_.min_information && !radio_has_room) {
-      candidates_.erase(ready[k]);
+      candidates_.drop_uninformative(ready[k]);
       ++uninformative_;
     } else if (!best || before(k, *best)) {
       if (best) left.push_back(ready[*best]);

@@ -67,6 +67,7 @@ void CandidateSet::offer(const LoopCandidate& candidate, Stamp now) {
   const Stamp since = replace_rival(candidate, now);
   if (redundant(pair)) {
     ++redundant_;
+    ++dropped_[pair.theirs.agent].redundant;
     return;
   }
   add(candidate, since, false);
@@ -85,8 +86,42 @@ void CandidateSet::add(const LoopCandidate& candidate, Stamp found, bool known_t
 }
 
 void CandidateSet::drop_redundant(const NodePair& pair) {
+  ++dropped_[pair.theirs.agent].redundant;
   erase(pair);
   ++redundant_;
+}
+
+void CandidateSet::drop_uninformative(const NodePair& pair) {
+  ++dropped_[pair.theirs.agent].uninformative;
+  erase(pair);
+}
+
+std::map<AgentId, PeerCandidates> CandidateSet::by_peer() const {
+  std::map<AgentId, PeerCandidates> peers = dropped_;
+  for (const Candidates* some : {&candidates_, &done_, &abandoned_}) {
+    for (const auto& [pair, candidate] : *some) {
+      PeerCandidates& peer = peers[pair.theirs.agent];
+      switch (candidate.phase) {
+        case Phase::kWaiting:
+          ++peer.waiting;
+          break;
+        case Phase::kRequested:
+          ++peer.requested;
+          break;
+        case Phase::kRegistering:
+          ++peer.registering;
+          break;
+        case Phase::kDone:
+          ++peer.aligned;
+          break;
+        case Phase::kFailed:
+          ++(candidate.registered ? peer.rejected : peer.not_received);
+          peer.to_be_retried += some == &candidates_ && candidate.attempts < config_.max_attempts;
+          break;
+      }
+    }
+  }
+  return peers;
 }
 
 Stamp CandidateSet::replace_rival(const LoopCandidate& candidate, Stamp now) {
@@ -151,7 +186,9 @@ void CandidateSet::crowd_out() {
   const auto waiting_by_age = [](const auto& entry) {
     return std::pair(entry.second.phase != Phase::kWaiting, entry.second.found);
   };
-  erase(NodePair(std::ranges::min_element(candidates_, {}, waiting_by_age)->first));
+  const NodePair oldest = std::ranges::min_element(candidates_, {}, waiting_by_age)->first;
+  ++dropped_[oldest.theirs.agent].overflowed;
+  erase(oldest);
   ++crowded_out_;
 }
 

@@ -11,6 +11,7 @@
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
+#include "fleetmap/loop_closure/peer_candidates.hpp"
 #include "node_index.hpp"
 
 namespace fleetmap::loop_closure {
@@ -23,6 +24,7 @@ struct ScheduledCandidate {
   Stamp found;
   Stamp retry_at;  ///< of one that failed
   int attempts = 0;
+  bool registered = false;    ///< at least once
   bool by_transform = false;  ///< an inter-frame transform found it, or is its prior
   int matches_sent = 0;
   Stamp next_match;
@@ -94,6 +96,11 @@ class CandidateSet {
   /// Erases one that another has made redundant, and counts it.
   void drop_redundant(const NodePair& pair);
 
+  /// Erases one that would add too little information.
+  void drop_uninformative(const NodePair& pair);
+  /// By the other robot, without PeerCandidates::heard.
+  std::map<AgentId, PeerCandidates> by_peer() const;
+
   /// The two robots have a good alignment: their candidates are spaced wider from now on.
   void on_aligned(const AgentId& peer) { aligned_.insert(peer); }
   bool is_aligned(const AgentId& peer) const { return aligned_.contains(peer); }
@@ -134,6 +141,7 @@ class CandidateSet {
   Candidates abandoned_;
   CandidateGrid grid_;  ///< of all three
   std::set<AgentId> aligned_;
+  std::map<AgentId, PeerCandidates> dropped_;
   std::uint64_t redundant_ = 0;
   std::uint64_t crowded_out_ = 0;
 };

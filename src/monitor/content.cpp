@@ -98,7 +98,10 @@ void Content::keep_new(const std::string& hash, const Cloud& preview) {
 }
 
 void Content::keep(const Previews& previews) {
-  for (const auto& [hash, preview] : previews) coarse_.keep(hash, preview);
+  for (const auto& [hash, preview] : previews) {
+    coarse_.keep(hash, preview);
+    if (submaps_.contains(hash)) made_.insert(hash);
+  }
 }
 
 Previews Content::previews() {

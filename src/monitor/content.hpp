@@ -80,7 +80,7 @@ class Content {
   std::pair<std::string, Make> begin_preview();
   /// Keeps what its work returned.
   void end_preview(const std::string& hash, const Cloud& preview);
-  /// Keeps previews that were made before, so that those of submaps that are shown later need no work.
+  /// Keeps previews that were made before, so that those of submaps that are shown now or later need no work.
   void keep(const Previews& previews);
   /// The previews of the submaps that are shown, as far as they are kept.
   Previews previews();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "candidates_json.hpp"
 #include "rounded_json.hpp"
 
 namespace fleetmap::monitor {
@@ -14,6 +15,14 @@ json clock_json(const std::optional<ClockNow>& clock) {
   return clock ? json{{"sensor", clock->sensor}, {"behind_s", clock->behind_s}} : json();
 }
 
+json past_json(const std::vector<PastProblem>& past) {
+  json problems = json::array();
+  for (const PastProblem& one : past)
+    problems.push_back(
+        {{"text", one.text}, {"total", one.is_total}, {"seconds_ago", optional_json(one.seconds_ago, 1.0)}});
+  return problems;
+}
+
 json robot_json(const RobotNow& robot) {
   json heard = json::array();
   for (const LastHeard& one : robot.heard)
@@ -21,6 +30,7 @@ json robot_json(const RobotNow& robot) {
   return {{"id", robot.id.str()},
           {"activity", robot.activity},
           {"problems", robot.problems},
+          {"past_problems", past_json(robot.past)},
           {"heard", std::move(heard)},
           {"battery", optional_json(robot.battery, 1e3)},
           {"sigma_m", optional_json(robot.sigma_m, 1e3)},
@@ -36,11 +46,15 @@ json robot_json(const RobotNow& robot) {
 }
 
 json sensor_json(const SensorNow& sensor) {
+  json findings = json::array();
+  for (const FindingNow& one : sensor.findings)
+    findings.push_back({{"text", one.text}, {"over", one.is_over}});
   return {{"name", sensor.name},
           {"samples", sensor.samples},
           {"per_second", rounded(sensor.per_second, 10.0)},
           {"clock_behind_s", optional_json(sensor.clock_behind_s, 1e3)},
-          {"clock_slow_ppm", optional_json(sensor.clock_slow_ppm, 10.0)}};
+          {"clock_slow_ppm", optional_json(sensor.clock_slow_ppm, 10.0)},
+          {"findings", std::move(findings)}};
 }
 
 json radio_json(const RadioNow& radio) {
@@ -96,6 +110,7 @@ std::string live_json(const LiveStatus& status, bool operated) {
                   {"sensors", std::move(sensors)},
                   {"radio", radio_json(status.radio)},
                   {"maps", maps_json(status.maps)},
+                  {"candidates", candidates_json(status.candidates)},
                   {"operated", operated}};
   return json{{"live", live}}.dump(-1, ' ', false, json::error_handler_t::replace);
 }

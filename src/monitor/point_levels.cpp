@@ -52,8 +52,8 @@ struct PlacedPoint {
   std::uint32_t index;
 };
 
-/// The finite points along the curve.
-std::vector<PlacedPoint> along_curve(const cloud::PointCloud& cloud, const Box& box) {
+/// The finite points, in their order in the cloud.
+std::vector<PlacedPoint> placed_points(const cloud::PointCloud& cloud, const Box& box) {
   const float coarsest = std::max(box.half_extent() / 4.0f, 1e-3f);
   const float per_metre = static_cast<float>(1u << (kLevels - 1)) / coarsest;
   std::vector<PlacedPoint> placed;
@@ -69,8 +69,39 @@ std::vector<PlacedPoint> along_curve(const cloud::PointCloud& cloud, const Box& 
     }
     placed.push_back({code, k});
   }
+  return placed;
+}
+
+std::vector<PlacedPoint> along_curve(std::vector<PlacedPoint> placed) {
   std::ranges::sort(placed, {}, [](const PlacedPoint& one) { return std::pair(one.code, one.index); });
   return placed;
+}
+
+/// The points of all levels up to the one that makes them `points`, along the curve: of each voxel of that
+/// level the first point. All points where that level's grid is too fine for a table, or where they are few.
+std::vector<PlacedPoint> first_along_curve(std::vector<PlacedPoint> placed, std::size_t points) {
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t kMaxVoxels = 1u << 22;
+  std::uint64_t last = 0;
+  for (const PlacedPoint& one : placed) last = std::max(last, one.code);
+  for (std::size_t level = 1; level < kLevels && placed.size() > points; ++level) {
+    const std::size_t shift = 3 * (kLevels - 1 - level);
+    if (last >> shift >= kMaxVoxels) break;
+    std::vector<std::uint32_t> first((last >> shift) + 1, kNone);
+    std::size_t voxels = 0;
+    for (std::uint32_t k = 0; k < placed.size(); ++k) {
+      std::uint32_t& one = first[placed[k].code >> shift];
+      voxels += one == kNone;
+      if (one == kNone || placed[k].code < placed[one].code) one = k;
+    }
+    if (voxels < points) continue;
+    std::vector<PlacedPoint> coarse;
+    coarse.reserve(voxels);
+    for (const std::uint32_t k : first)
+      if (k != kNone) coarse.push_back(placed[k]);
+    return coarse;  // a voxel's index lies along the curve as its points do
+  }
+  return along_curve(std::move(placed));
 }
 
 /// The coarsest level at which a point is the first of its voxel along the curve, given the code before it;
@@ -111,7 +142,8 @@ static_assert(sizeof(PointHeader) == kPointHeaderBytes);
 
 std::vector<std::uint32_t> coarse_to_fine(const cloud::PointCloud& cloud) {
   const Box box = box_of(cloud);
-  return box.empty() ? std::vector<std::uint32_t>{} : first_of_order(along_curve(cloud, box), cloud.size());
+  return box.empty() ? std::vector<std::uint32_t>{}
+                     : first_of_order(along_curve(placed_points(cloud, box)), cloud.size());
 }
 
 QuantisedCloud quantised(const cloud::PointCloud& cloud) { return quantised_prefix(cloud, cloud.size()); }
@@ -126,9 +158,9 @@ QuantisedCloud quantised_prefix(const cloud::PointCloud& cloud, std::size_t poin
   for (const float intensity : cloud.intensities) {
     if (std::isfinite(intensity)) strongest = std::max(strongest, intensity);
   }
-  const std::vector<PlacedPoint> placed = along_curve(cloud, box);
+  std::vector<PlacedPoint> placed = placed_points(cloud, box);
   result.whole = placed.size();
-  std::vector<std::uint32_t> order = first_of_order(placed, points);
+  std::vector<std::uint32_t> order = first_of_order(first_along_curve(std::move(placed), points), points);
   order.resize(std::min(order.size(), points));
   result.values.reserve(4 * order.size());
   for (const std::uint32_t k : order) {

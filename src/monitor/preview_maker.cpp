@@ -24,17 +24,22 @@ constexpr std::size_t kNewShare = 8;
 }  // namespace
 
 PreviewMaker::PreviewMaker(EventLoop& loop, Content& content, unsigned threads, bool background,
-                           std::filesystem::path file)
+                           std::filesystem::path file, std::vector<std::filesystem::path> others)
     : loop_(loop),
       content_(content),
       threads_(threads),
       background_(background),
       file_(std::move(file)),
+      unread_(others.rbegin(), others.rend()),
       pool_(threads) {
   if (!file_.empty()) content_.keep(read_previews(file_));
 }
 
 void PreviewMaker::refresh() {
+  while (!unread_.empty() && content_.misses_previews()) {
+    content_.keep(read_previews(unread_.back()));
+    unread_.pop_back();
+  }
   while (in_flight_ < kAheadPerThread * threads_ && content_.misses_previews()) start_one();
   if (in_flight_ == 0 && threads_ > 0 && !file_.empty()) save();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "content.hpp"
 #include "event_loop.hpp"
@@ -13,9 +14,10 @@ namespace fleetmap::monitor {
 class PreviewMaker {
  public:
   /// `loop` is the server's thread. In the `background`, all other work of the machine goes first. Reads what
-  /// is in `file` and keeps it up to date, unless its name is empty.
+  /// is in `file` and keeps it up to date, unless its name is empty. While submaps lack previews, reads those
+  /// of `others` first, one file after the other.
   PreviewMaker(EventLoop& loop, Content& content, unsigned threads, bool background,
-               std::filesystem::path file);
+               std::filesystem::path file, std::vector<std::filesystem::path> others = {});
 
   /// Goes on with what is shown now.
   void refresh();
@@ -29,8 +31,9 @@ class PreviewMaker {
   unsigned threads_;
   bool background_;
   std::filesystem::path file_;
-  unsigned in_flight_ = 0;  ///< to the pool, and not back yet
-  ThreadPool pool_;         ///< last: its threads end first
+  std::vector<std::filesystem::path> unread_;  ///< the next one last
+  unsigned in_flight_ = 0;                     ///< to the pool, and not back yet
+  ThreadPool pool_;                            ///< last: its threads end first
 };
 
 }  // namespace fleetmap::monitor

@@ -32,7 +32,8 @@ struct Server::State {
   ServerCounters counters;
   WebServer web{config, counters};  ///< after all that its sessions use
   foxglove::Feed feed{web, content, foxglove_clients, {config.foxglove_points, config.foxglove_map_period}};
-  PreviewMaker previews{web, content, config.preview_threads, config.background, config.preview_file};
+  PreviewMaker previews{
+      web, content, config.preview_threads, config.background, config.preview_file, config.more_previews};
   std::thread thread;
 
   bool operated() const { return !config.token.empty() && give_order != nullptr; }

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "candidates_json.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/monitor/pair_answer.hpp"
 #include "rounded_json.hpp"
@@ -273,6 +274,7 @@ std::string state_json(const FleetView& view) {
                    {"logs", names_of(view.logs)},
                    {"holdings", holdings_json(view)},
                    {"pairs", answers_json(view)},
+                   {"candidates", candidates_json(view.candidates)},
                    {"loose_sessions", loose_sessions(view)},
                    {"notes", view.notes}};
   return state.dump(-1, ' ', false, json::error_handler_t::replace);

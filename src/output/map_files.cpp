@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/cloud/cloud_writer.hpp"
@@ -41,9 +42,9 @@ store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T
 }
 
 Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                                    const store::MergeConfig& config) {
-  return store::TiledMerge::plan(store::with_submaps(store, T_map_node), store::decoded_submaps(store),
-                                 config);
+                                    const store::MergeConfig& config, store::SubmapLoader load) {
+  if (!load) load = store::decoded_submaps(store);
+  return store::TiledMerge::plan(store::with_submaps(store, T_map_node), std::move(load), config);
 }
 
 Status require_points(const store::MapOutline& outline) {
@@ -63,8 +64,8 @@ Status require_points(const store::MapOutline& outline) {
 Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                 const store::MergeConfig& config,
                                 std::span<const std::filesystem::path> files,
-                                const std::vector<std::string>& comments) {
-  auto merge = tiled_map(store, T_map_node, config);
+                                const std::vector<std::string>& comments, const store::SubmapLoader& load) {
+  auto merge = tiled_map(store, T_map_node, config, load);
   if (!merge) return tl::unexpected(merge.error());
   return write_planned(*merge, files, comments);
 }
@@ -116,7 +117,8 @@ ContentHash map_hash(const store::Store& store, const std::map<NodeId, Pose>& T_
 
 Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                            const store::MergeConfig& config, const std::filesystem::path& directory,
-                           std::span<const MapFiles> others, const std::vector<std::string>& comments) {
+                           std::span<const MapFiles> others, const std::vector<std::string>& comments,
+                           const store::SubmapLoader& load) {
   MapFiles files;
   files.directory = directory;
   files.made_of = map_hash(store, T_map_node, config);
@@ -124,7 +126,7 @@ Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_
     return copied_map(*same, directory);
   std::vector<std::filesystem::path> paths;
   for (const char* name : kMapNames) paths.push_back(directory / name);
-  const auto map = write_merged(store, T_map_node, config, paths, comments);
+  const auto map = write_merged(store, T_map_node, config, paths, comments, load);
   if (!map) return tl::unexpected(map.error());
   warn_of_unreadable(map->outline, store.self());
   if (!map->outline.unreadable.empty()) files.made_of = {};  // not for others
@@ -138,9 +140,9 @@ Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_
 
 Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
                                const std::filesystem::path& directory,
-                               const std::vector<std::string>& comments) {
+                               const std::vector<std::string>& comments, const store::SubmapLoader& load) {
   const std::filesystem::path file = directory / file_of(part);
-  const auto map = write_merged(store, part.T_map_node, config, std::array{file}, comments);
+  const auto map = write_merged(store, part.T_map_node, config, std::array{file}, comments, load);
   if (!map) return tl::unexpected(map.error());
   warn_of_unreadable(map->outline, store.self());
   spdlog::warn("{}: nobody knows where {} lies: {} submaps are in {}, not in map.ply", store.self().str(),

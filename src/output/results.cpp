@@ -76,7 +76,7 @@ Status write_global_poses(const LocalFrame& site, const ResultsConfig& config) {
 }  // namespace
 
 Result<Results> write_results(store::Store& store, const ResultsConfig& config,
-                              std::span<const MapFiles> others) {
+                              std::span<const MapFiles> others, const store::SubmapLoader& load) {
   const std::optional<GeoPoint> origin = site_origin(store, config.recipe.site_origin);
   if (!origin) {
     return failure(config.agent.str() +
@@ -93,14 +93,14 @@ Result<Results> write_results(store::Store& store, const ResultsConfig& config,
   results.apart = std::move(parts.apart);
   const store::MergeConfig& merge = config.recipe.map;
   auto map = write_map(store, parts.main.T_map_node, merge, config.directory, others,
-                       map_comments(store, parts.main, *origin, merge));
+                       map_comments(store, parts.main, *origin, merge), load);
   if (!map) return tl::unexpected(map.error());
   results.map = std::move(*map);
   results.missing_submaps = store.nodes().size() - results.map.submaps;
   remove_parts(config.directory);
   for (const MapPart& part : results.apart) {
     const Result<std::size_t> submaps =
-        write_part(store, part, merge, config.directory, map_comments(store, part, *origin, merge));
+        write_part(store, part, merge, config.directory, map_comments(store, part, *origin, merge), load);
     if (!submaps) return tl::unexpected(submaps.error());
     results.missing_submaps -= *submaps;
   }

@@ -42,6 +42,13 @@ class LappingRobot {
 
   explicit LappingRobot(const Options& options);
   void run_for(double seconds);
+  /// From now on.
+  void set_clock(sensor::Source source, const SensorClock& clock) {
+    options_.clocks[static_cast<std::size_t>(source)] = clock;
+  }
+  void set_fitted(sensor::Source source, bool fitted) {
+    options_.fitted[static_cast<std::size_t>(source)] = fitted;
+  }
   agent::Agent& agent() { return *agent_; }
   bus::LocalNetwork& network() { return *network_; }
   bus::Bus& bus() { return *bus_; }

@@ -82,7 +82,7 @@ TEST_F(CaseFolder, AnInterruptedCaseLeavesNoRecordButAFinishedOneDoes) {
 TEST_F(CaseFolder, OnlyWhatIsLargeAndNoReportIsRemoved) {
   const Engine engine = [](const Case& one, const fs::path& directory) {
     fs::create_directories(directory / "r1");
-    for (const char* name : {"store.db", "r1/map.ply", "bag.mcap", "bag.db3"})
+    for (const char* name : {"store.db", "r1/map.ply", "bag.mcap", "bag.db3", "monitor.previews"})
       std::ofstream(directory / name) << 1;
     for (const char* name : {"big.bin", "big.csv", "big.png", "big.log", "big.json", "big.svg", "big.yaml"}) {
       std::ofstream(directory / name) << 1;
@@ -92,7 +92,7 @@ TEST_F(CaseFolder, OnlyWhatIsLargeAndNoReportIsRemoved) {
     return measured(one, directory);
   };
   ASSERT_TRUE(run(engine).done());
-  for (const char* gone : {"store.db", "r1/map.ply", "bag.mcap", "bag.db3", "big.bin"})
+  for (const char* gone : {"store.db", "r1/map.ply", "bag.mcap", "bag.db3", "monitor.previews", "big.bin"})
     EXPECT_FALSE(fs::exists(file(gone))) << gone;
   for (const char* kept : {"big.csv", "big.png", "big.log", "big.json", "big.svg", "big.yaml", "small.bin"})
     EXPECT_TRUE(fs::exists(file(kept))) << kept;

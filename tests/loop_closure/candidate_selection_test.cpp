@@ -112,6 +112,7 @@ TEST_F(CandidateSelectionTest, UninformativeCandidatesAreDroppedUnlessTheRadioHa
   std::vector<NodePair> waiting = ready(kStart);
   EXPECT_FALSE(selection_.next(waiting, false));
   EXPECT_EQ(selection_.uninformative_count(), 1u);
+  EXPECT_EQ(candidates_.by_peer().begin()->second.uninformative, 1u);
   EXPECT_FALSE(candidates_.contains(pair(5)));
   offer(5);
   waiting = ready(kStart);

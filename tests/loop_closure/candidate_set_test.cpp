@@ -39,6 +39,8 @@ TEST_F(CandidateSetTest, CandidatesKeepTheSpacingThatGrowsWithTheFirstGoodAlignm
   set_.offer(candidate(4, 4, 1.0), kStart);  // 8 m on
   EXPECT_EQ(set_.open().size(), 1u);
   EXPECT_EQ(set_.redundant_count(), 1u);
+  EXPECT_EQ(set_.by_peer().at(agent("b")).redundant, 1u);
+  EXPECT_EQ(set_.by_peer().at(agent("b")).waiting, 1u);
   set_.offer(candidate(6, 6, 1.0), kStart);
   EXPECT_EQ(set_.open().size(), 2u);
   set_.on_aligned(agent("b"));

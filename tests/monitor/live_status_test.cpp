@@ -25,6 +25,7 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
   robot.id = agent("r2");
   robot.activity = "drives row 7";
   robot.problems = {"no scan for 9 s"};
+  robot.past = {{"no fix", false, 61.4}, {"its disk refused writes", true, std::nullopt}};
   robot.heard = {{"short_range", 0.42}, {"long_range", 3.0}};
   robot.battery = 0.615;
   robot.nodes = 12;
@@ -39,6 +40,8 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
   EXPECT_EQ(one["id"], "r2");
   EXPECT_EQ(one["activity"], "drives row 7");
   EXPECT_EQ(one["problems"], json({"no scan for 9 s"}));
+  EXPECT_EQ(one["past_problems"], json::parse(R"([{"text": "no fix", "total": false, "seconds_ago": 61.0},
+      {"text": "its disk refused writes", "total": true, "seconds_ago": null}])"));
   EXPECT_EQ(one["heard"], json::parse(R"([{"link": "short_range", "seconds_ago": 0.4},
                                           {"link": "long_range", "seconds_ago": 3.0}])"));
   EXPECT_EQ(one["battery"], 0.615);
@@ -53,7 +56,7 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
 
 TEST(LiveStatus, radio_and_sensors_are_written) {
   LiveStatus status;
-  status.sensors = {{"lidar", 100, 9.96, -0.25, std::nullopt}};
+  status.sensors = {{"lidar", 100, 9.96, -0.25, std::nullopt, 0.0, {{"no points", true}}}};
   status.radio.who_may_join = "anyone";
   status.radio.sent = 310.04;
   status.radio.share = 1812.5;
@@ -64,7 +67,8 @@ TEST(LiveStatus, radio_and_sensors_are_written) {
   status.radio.missing_bytes = 5000;
   const json live = written(status);
   EXPECT_EQ(live["sensors"], json::parse(R"([{"name": "lidar", "samples": 100, "per_second": 10.0,
-                                              "clock_behind_s": -0.25, "clock_slow_ppm": null}])"));
+                                              "clock_behind_s": -0.25, "clock_slow_ppm": null,
+                                              "findings": [{"text": "no points", "over": true}]}])"));
   const json& radio = live["radio"];
   EXPECT_EQ(radio["who_may_join"], "anyone");
   EXPECT_EQ(radio["sent"], 310.0);

@@ -138,6 +138,24 @@ TEST(PointLevels, a_prefix_is_told_from_a_whole_submap) {
   EXPECT_EQ(quick.scale, prefix.scale);
 }
 
+TEST(PointLevels, a_prefix_is_made_without_the_rest_and_is_the_same) {
+  std::vector<cloud::PointCloud> clouds{random_cloud(30'000, 20.0f), random_cloud(3000, 1e-4f),
+                                        random_cloud(2000, 40.0f, 2)};
+  for (std::size_t k = 0; k < 5000; ++k) clouds[1].points.push_back(clouds[1].points[k % 7]);
+  clouds[1].intensities.clear();
+  clouds[2].points[5] = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  clouds.push_back(random_cloud(5000, 1.0f));
+  clouds.back().points[9].x() = 1e9f;  // all others are in one voxel of the coarse grids
+  for (const cloud::PointCloud& cloud : clouds) {
+    const QuantisedCloud whole = quantised(cloud);
+    for (const std::size_t points : {0u, 1u, 64u, 1024u, 1999u, 20'000u}) {
+      const QuantisedCloud quick = quantised_prefix(cloud, points);
+      EXPECT_EQ(quick.values, prefix_of(whole, points).values) << cloud.size() << ", " << points;
+      EXPECT_EQ(quick.whole, whole.whole);
+    }
+  }
+}
+
 TEST(PointLevels, encoded_points_are_read_from_their_first_one_on_alone) {
   const QuantisedCloud cloud = prefix_of(quantised(random_cloud(1000, 20.0f)), 300);
   const Bytes bytes = encoded_points(cloud, 0, 300);

@@ -53,10 +53,10 @@ class PreviewMakerTest : public ::testing::TestWithParam<bool> {
             1 << 20};
   }
   /// Starts anew, shows the fleet with the previews of `file`, and returns how many submaps are decoded.
-  int decoded_with(const std::filesystem::path& file) {
+  int decoded_with(const std::filesystem::path& file, std::vector<std::filesystem::path> others = {}) {
     content_ = content();
     loads_ = 0;
-    PreviewMaker previews(loop_, content_, 2, GetParam(), file);
+    PreviewMaker previews(loop_, content_, 2, GetParam(), file, std::move(others));
     content_.show(fleet_.view);
     previews.refresh();
     run();
@@ -90,6 +90,16 @@ TEST_P(PreviewMakerTest, what_its_file_holds_is_not_decoded_again) {
   EXPECT_EQ(decoded_with(file), 0) << "and was written again";
   EXPECT_EQ(decoded_with(folder_ / "none" / "store.db.previews"), 30)
       << "one that cannot be written is no end";
+}
+
+TEST_P(PreviewMakerTest, what_other_files_hold_is_not_decoded_either) {
+  const std::filesystem::path of_run = folder_ / "monitor.previews", own = folder_ / "store.db.previews";
+  decoded_with(of_run);
+  EXPECT_EQ(decoded_with(own, {folder_ / "none.previews", of_run}), 0);
+  EXPECT_FALSE(std::filesystem::exists(own)) << "nothing was made";
+  std::filesystem::resize_file(of_run, 5000);
+  EXPECT_EQ(decoded_with(own, {of_run}), 30) << "it was damaged";
+  EXPECT_TRUE(std::filesystem::exists(own));
 }
 
 TEST_P(PreviewMakerTest, its_file_is_written_again_when_an_eighth_of_it_is_new) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include "fleetmap/cloud/codec.hpp"
@@ -13,6 +14,7 @@
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
+#include "fleetmap/store/submap_loader.hpp"
 #include "graph/simulated_fleet.hpp"
 #include "store/agents.hpp"
 #include "support/file_content.hpp"
@@ -104,6 +106,20 @@ TEST_F(ResultsTest, UnplacedComponentsHaveFilesOfTheirOwn) {
   const auto part = cloud::read_cloud(folder_.path() / "map-r1.5.ply");
   ASSERT_TRUE(part) << part.error().message;
   EXPECT_GT(part->size(), 50u);
+}
+
+TEST_F(ResultsTest, EverySubmapOfTheMapAndOfItsPartsGoesThroughTheLoaderThatIsGiven) {
+  store::Store store = open();
+  std::set<NodeId> all, loaded;
+  for (int k = 0; k < 4; ++k) all.insert(add_node(store, 3.0 * k).id);
+  for (int k = 0; k < 3; ++k) all.insert(add_node(store, 3.0 * k, 5, false).id);
+  ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
+  const auto results = write_results(store, config(), {}, [&](const NodeId& id) {
+    loaded.insert(id);
+    return store::decoded_submaps(store)(id);
+  });
+  ASSERT_TRUE(results) << results.error().message;
+  EXPECT_EQ(loaded, all);
 }
 
 TEST_F(ResultsTest, StoreOfAKilledAgentGivesTheSameMap) {

@@ -99,6 +99,10 @@ class Agent {
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const loop_closure::RegistrationCounters& registrations() const { return loop_closing_.registrations(); }
   loop_closure::CandidateStats candidate_stats() const { return loop_closing_.stats(); }
+  /// Candidates with each other robot, if there are any.
+  std::map<AgentId, loop_closure::PeerCandidates> candidates_by_peer() const {
+    return loop_closing_.by_peer();
+  }
   /// The driver of the robot; null if this agent does not drive.
   const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of LOAM a scan.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -63,6 +64,11 @@ class Perception {
   Stamp last_sample() const { return last_sample_; }
   /// When a scan was, or else when this was made.
   Stamp last_scan() const { return last_scan_; }
+  /// When the last sample came that the checks let through, of GPS with a valid fix; none before. Not of the
+  /// LiDAR.
+  std::optional<Stamp> last_sound(sensor::Source source) const {
+    return last_sound_[static_cast<std::size_t>(source)];
+  }
   std::optional<GlobalPose> global_pose() const { return ekf_.pose(); }
   const PerceptionCounters& counters() const { return counters_; }
   const odometry::LoamCounters& odometry_counters() const { return loam_counters_; }
@@ -135,6 +141,7 @@ class Perception {
   std::vector<sensor::Wheel> wheel_since_scan_;
   bool busy_ = false;
   Stamp last_sample_, last_scan_;
+  std::array<std::optional<Stamp>, sensor::kSources> last_sound_;
   std::uint64_t lost_in_a_row_ = 0;  ///< scans
   std::size_t clock_findings_ = 0;
   PerceptionCounters counters_;

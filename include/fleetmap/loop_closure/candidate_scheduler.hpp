@@ -15,6 +15,7 @@
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
+#include "fleetmap/loop_closure/peer_candidates.hpp"
 
 namespace fleetmap::loop_closure {
 
@@ -80,6 +81,8 @@ class CandidateScheduler final : public exchange::CloudClient {
   std::optional<UncertainPose> transform(const NodePair& pair) const;
   bool has_good_alignment(const AgentId& peer) const;
   CandidateStats stats() const;
+  /// By the other robot; those without a candidate are left out.
+  std::map<AgentId, PeerCandidates> by_peer(Stamp now) const;
 
  private:
   struct State;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +49,8 @@ class LoopClosing {
   /// The interface to the transport. Lives as long as this.
   exchange::CloudClient& scheduler() { return scheduler_; }
   CandidateStats stats() const { return scheduler_.stats(); }
+  /// By the other robot, as CandidateScheduler has them.
+  std::map<AgentId, PeerCandidates> by_peer() const { return scheduler_.by_peer(bus_.now()); }
   const RegistrationCounters& registrations() const;
 
   /// A session of this robot begins: its nodes in the store are of earlier ones.

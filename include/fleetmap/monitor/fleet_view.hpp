@@ -11,6 +11,7 @@
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/graph/placement.hpp"
 #include "fleetmap/monitor/attempt.hpp"
+#include "fleetmap/monitor/pair_candidates.hpp"
 
 namespace fleetmap::monitor {
 
@@ -32,10 +33,11 @@ struct FleetView {
   graph::Placement placement;
   double search_radius_m =
       30.0;  ///< m, r_max of the proximity search (Eq. 1): only nodes so near are registered
-  std::vector<Attempt> attempts;   ///< of the robots in `logs`
-  std::vector<AgentId> logs;       ///< robots whose registrations.csv was read
-  std::vector<Holding> holdings;   ///< of all robots whose stores are known
-  std::vector<std::string> notes;  ///< files that could not be read
+  std::vector<Attempt> attempts;           ///< of the robots in `logs`
+  std::vector<AgentId> logs;               ///< robots whose registrations.csv was read
+  std::vector<PairCandidates> candidates;  ///< of finished robots, as their reports have them
+  std::vector<Holding> holdings;           ///< of all robots whose stores are known
+  std::vector<std::string> notes;          ///< files that could not be read
 };
 
 /// All robots that made a node or an alignment, ran a registration or hold something, by name.

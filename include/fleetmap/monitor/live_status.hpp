@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fleetmap/core/ids.hpp"
+#include "fleetmap/monitor/pair_candidates.hpp"
 
 namespace fleetmap::monitor {
 
@@ -22,11 +23,20 @@ struct ClockNow {
   double behind_s = 0.0;  ///< within a factor of 1.4; negative: ahead
 };
 
+/// A problem of a robot that is over, or that was counted since the robot started and grows no more.
+struct PastProblem {
+  std::string text;
+  bool is_total = false;              ///< counted since the robot started
+  std::optional<double> seconds_ago;  ///< it was there or grew last; empty: before anyone looked
+};
+
 /// One robot at present, as the robot that shows the page has heard of it.
 struct RobotNow {
   AgentId id;
   std::string activity;               ///< in words: "drives row 7, 62 % of the rows are driven"
   std::vector<std::string> problems;  ///< in words, empty when all is well
+  std::vector<std::string> totals;    ///< those of the problems that are counted since it started
+  std::vector<PastProblem> past;      ///< the newest first
   std::vector<LastHeard> heard;       ///< empty: not heard yet, or this robot itself
   std::optional<double> battery;      ///< share left
   std::optional<double> sigma_m;      ///< m, horizontal, of its own G
@@ -39,6 +49,12 @@ struct RobotNow {
   bool driven = false;  ///< orders are for it: it has not said that fleetmap does not drive it
 };
 
+/// A finding of a sensor's check, in short.
+struct FindingNow {
+  std::string text;
+  bool is_over = false;  ///< by what the sensor sends now
+};
+
 /// A sensor of the robot that shows the page.
 struct SensorNow {
   std::string name;
@@ -46,6 +62,7 @@ struct SensorNow {
   double per_second = 0.0;
   std::optional<double> clock_behind_s, clock_slow_ppm;
   double silent_s = 0.0;  ///< since the last sample, if there was one; to 1 s
+  std::vector<FindingNow> findings = {};
 };
 
 /// Traffic of one kind of message, B/s on the wire.
@@ -102,6 +119,7 @@ struct LiveStatus {
   std::vector<SensorNow> sensors;
   RadioNow radio;
   FleetMaps maps;
+  std::vector<PairCandidates> candidates;  ///< of this robot, and of others in the same process
 };
 
 /// The status as JSON, in an object "live". `operated`: whether viewers may give orders.

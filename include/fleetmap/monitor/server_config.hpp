@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "fleetmap/core/result.hpp"
 
@@ -20,10 +21,11 @@ struct ServerConfig {
   std::chrono::milliseconds answer_timeout{30'000};   ///< to take its answer
   std::chrono::milliseconds idle_timeout{30'000};     ///< of a viewer that answers no ping
   std::size_t cached_bytes = 64u << 20;               ///< of submaps that were decoded
-  unsigned preview_threads = 0;           ///< that decode first points before a viewer asks for them
-  bool background = false;                ///< they run when nothing else does
-  std::filesystem::path preview_file;     ///< keeps what they made for the next start; empty: nothing does
-  std::size_t foxglove_points = 300'000;  ///< of the map that Foxglove clients get, at most
+  unsigned preview_threads = 0;        ///< that decode first points before a viewer asks for them
+  bool background = false;             ///< they run when nothing else does
+  std::filesystem::path preview_file;  ///< keeps what they made for the next start; empty: nothing does
+  std::vector<std::filesystem::path> more_previews;      ///< such files, of which that one may be made
+  std::size_t foxglove_points = 300'000;                 ///< of the map that Foxglove clients get, at most
   std::chrono::milliseconds foxglove_map_period{5'000};  ///< from one of these maps to the next
   Status validate() const;
 };

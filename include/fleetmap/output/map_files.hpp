@@ -16,11 +16,12 @@
 namespace fleetmap::output {
 
 /// The map of those nodes whose submaps the store holds, in the frame that their poses are in: as a whole, or
-/// planned to be merged tile by tile. `store` must outlive the latter.
+/// planned to be merged tile by tile. `store` must outlive the latter. `load` reads the submaps, here and
+/// below; empty: store::decoded_submaps() does.
 store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                             const store::MergeConfig& config);
 Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                                    const store::MergeConfig& config);
+                                    const store::MergeConfig& config, store::SubmapLoader load = {});
 /// Fails, with the cause and the remedy, if no point of a planned map can be used.
 Status require_points(const store::MapOutline& outline);
 
@@ -34,7 +35,8 @@ struct WrittenMap {
 Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                 const store::MergeConfig& config,
                                 std::span<const std::filesystem::path> files,
-                                const std::vector<std::string>& comments = {});
+                                const std::vector<std::string>& comments = {},
+                                const store::SubmapLoader& load = {});
 /// The same of a map that is planned.
 Result<WrittenMap> write_planned(store::TiledMerge& merge, std::span<const std::filesystem::path> files,
                                  const std::vector<std::string>& comments = {});
@@ -58,11 +60,13 @@ struct MapFiles {
 /// and below.
 Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                            const store::MergeConfig& config, const std::filesystem::path& directory,
-                           std::span<const MapFiles> others, const std::vector<std::string>& comments);
+                           std::span<const MapFiles> others, const std::vector<std::string>& comments,
+                           const store::SubmapLoader& load = {});
 /// Writes file_of(part) and returns how many submaps it shows.
 Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
                                const std::filesystem::path& directory,
-                               const std::vector<std::string>& comments);
+                               const std::vector<std::string>& comments,
+                               const store::SubmapLoader& load = {});
 /// Removes the parts of an earlier run, since nodes that could not be placed then may be in the map now.
 void remove_parts(const std::filesystem::path& directory);
 /// Removes temporary files, up to gigabytes, of a program that was killed while it merged a map.

@@ -35,8 +35,9 @@ struct Results {
 /// Writes map.ply, map.pcd, one more file for each part of the fleet that no alignment joins to that map,
 /// trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory. Fails when there is no
 /// node yet, or a file cannot be written. Where several agents of one process hold the same set, `others`
-/// spares them to merge it again: a map made of the same is copied.
+/// spares them to merge it again: a map made of the same is copied. `load` reads the submaps of a map that is
+/// merged; empty: store::decoded_submaps() does.
 Result<Results> write_results(store::Store& store, const ResultsConfig& config,
-                              std::span<const MapFiles> others = {});
+                              std::span<const MapFiles> others = {}, const store::SubmapLoader& load = {});
 
 }  // namespace fleetmap::output

@@ -7,6 +7,7 @@
 #include "merge_summary.hpp"
 #include "merged_store.hpp"
 #include "options.hpp"
+#include "page/preview_files.hpp"
 
 namespace fleetmap::apps {
 
@@ -23,6 +24,7 @@ CommandResult<ExitCode> merge_files(const MergeOptions& options, std::ostream& o
   const std::vector<fs::path> stores(options.stores.begin(), options.stores.end());
   const auto merged = merge_stores(stores, file, keys);
   if (!merged) return exit_with(kFailed, merged.error());
+  keep_previews(file, stores);
   print_summary(out, *merged, options.stores, file.string());
   return kDone;
 }

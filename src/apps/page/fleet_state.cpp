@@ -5,30 +5,23 @@
 #include <algorithm>
 
 #include "fleetmap/agent/navigator.hpp"
+#include "sensor_findings.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 constexpr Duration kScanSilence = std::chrono::seconds(5);
-/// Characters of a finding, which has its remedy as well, among a robot's problems.
-constexpr std::size_t kMaxProblemLength = 120;
 constexpr std::size_t kMaxFindings = 5;
 
-/// The finding up to its first clause that ends, or its first words.
-std::string in_short(const std::string& finding) {
-  std::string first = finding.substr(0, std::min(finding.find("; "), finding.find(". ")));
-  if (first.size() <= kMaxProblemLength) return first;
-  const std::size_t blank = first.rfind(' ', kMaxProblemLength);
-  first.resize(blank == std::string::npos ? kMaxProblemLength : blank);
-  return first + " ...";
-}
-
-void add_findings(const std::vector<std::string>& findings, std::vector<std::string>& problems) {
-  for (std::size_t k = 0; k < std::min(kMaxFindings, findings.size()); ++k)
-    problems.push_back(in_short(findings[k]));
-  if (findings.size() > kMaxFindings)
+/// Findings whose cause has not ended.
+void add_findings(const std::vector<SensorFinding>& findings, std::vector<std::string>& problems) {
+  std::size_t present = 0;
+  for (const SensorFinding& one : findings) {
+    if (!one.is_over && ++present <= kMaxFindings) problems.push_back(one.text);
+  }
+  if (present > kMaxFindings)
     problems.push_back(
-        fmt::format("{} more findings of its sensors, which its log has", findings.size() - kMaxFindings));
+        fmt::format("{} more findings of its sensors, which its log has", present - kMaxFindings));
 }
 
 void add_mission(const agent::Navigator& navigator, FleetState& fleet) {
@@ -49,14 +42,20 @@ std::vector<std::string> problems_of(const agent::Agent& agent, Stamp now) {
   const agent::Perception& perception = agent.perception();
   if (const Duration silence = now - perception.last_scan(); silence > kScanSilence)
     problems.push_back(fmt::format("no scan for {:.0f} s", to_seconds(silence)));
-  if (const auto& loam = perception.odometry_counters(); loam.lost > 0)
-    problems.push_back(fmt::format("the odometry could not match {} scans", loam.lost));
-  if (const auto dropped = perception.counters().dropped_scans; dropped > 0)
-    problems.push_back(fmt::format("{} scans were dropped, since the odometry is too slow", dropped));
-  add_findings(perception.health().alarms(), problems);
-  if (const auto failures = agent.store_failures(); failures > 0)
-    problems.push_back(fmt::format("the disk refused {} writes", failures));
+  add_findings(sensor_findings(perception, now), problems);
   return problems;
+}
+
+std::vector<std::string> totals_of(const agent::Agent& agent) {
+  std::vector<std::string> totals;
+  const agent::Perception& perception = agent.perception();
+  if (const auto& loam = perception.odometry_counters(); loam.lost > 0)
+    totals.push_back(fmt::format("the odometry could not match {} scans", loam.lost));
+  if (const auto dropped = perception.counters().dropped_scans; dropped > 0)
+    totals.push_back(fmt::format("{} scans were dropped, since the odometry is too slow", dropped));
+  if (const auto failures = agent.store_failures(); failures > 0)
+    totals.push_back(fmt::format("the disk refused {} writes", failures));
+  return totals;
 }
 
 double lost_after(const agent::Agent& agent) {
@@ -79,6 +78,7 @@ FleetState fleet_state(const agent::Agent& agent, const std::map<LinkLog::Source
   fleet.heard = last_heard;
   fleet.misbehaved = exchange.stats().misbehaved;
   fleet.problems[fleet.self] = problems_of(agent, now);
+  fleet.totals[fleet.self] = totals_of(agent);
   if (agent.navigator() != nullptr) add_mission(*agent.navigator(), fleet);
   return fleet;
 }

@@ -12,6 +12,8 @@ namespace fleetmap::apps {
 
 /// Problems of a robot whose agent runs in this process, in words.
 std::vector<std::string> problems_of(const agent::Agent& agent, Stamp now);
+/// Failures since it started, in words; they may be over.
+std::vector<std::string> totals_of(const agent::Agent& agent);
 
 /// s, so long a robot may be silent before this agent counts it as lost.
 double lost_after(const agent::Agent& agent);

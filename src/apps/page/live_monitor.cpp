@@ -9,6 +9,7 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/output/registrations_file.hpp"
+#include "preview_files.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -24,7 +25,8 @@ std::string fingerprint(const std::vector<fs::path>& stores) {
   std::ostringstream print;
   for (const fs::path& store : stores) {
     for (const fs::path& file :
-         {store, fs::path(store.string() + "-wal"), store.parent_path() / output::kRegistrationsFile}) {
+         {store, fs::path(store.string() + "-wal"), store.parent_path() / output::kRegistrationsFile,
+          store.parent_path() / "report.json", store.parent_path().parent_path() / "report.json"}) {
       std::error_code missing;
       const auto bytes = fs::file_size(file, missing);
       if (missing) continue;
@@ -58,9 +60,6 @@ Result<std::unique_ptr<LiveMonitor>> open_page(const std::optional<monitor::Serv
 }
 
 }  // namespace
-
-fs::path previews_of_store(const fs::path& store) { return store.string() + ".previews"; }
-fs::path previews_of_run(const fs::path& directory) { return directory / "monitor.previews"; }
 
 LiveMonitor::LiveMonitor(Stores stores, Read read) : stores_(std::move(stores)), read_(std::move(read)) {}
 

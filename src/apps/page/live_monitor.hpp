@@ -58,10 +58,6 @@ class LiveMonitor {
   std::thread thread_;
 };
 
-/// Files in which the first points of submaps are kept for the next start of a page.
-std::filesystem::path previews_of_store(const std::filesystem::path& store);
-std::filesystem::path previews_of_run(const std::filesystem::path& directory);
-
 /// The page of what the robot that keeps its files in `folder` holds; null without a configuration.
 Result<std::unique_ptr<LiveMonitor>> page_of_robot(const std::optional<monitor::ServerConfig>& config,
                                                    const std::filesystem::path& folder);

@@ -1,9 +1,12 @@
 #include "live_publisher.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "fleet_state.hpp"
 #include "fleetmap/agent/navigator.hpp"
+#include "report/candidate_report.hpp"
+#include "sensor_findings.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -66,13 +69,30 @@ void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const L
   status.self = agent_.config().id;
   status.lost_after_s = lost_after(agent_);
   FleetState fleet = fleet_state(agent_, last_heard, bus_.now());
-  for (const agent::Agent* other : others)
+  status.candidates = candidates_of(agent_);
+  for (const agent::Agent* other : others) {
     fleet.problems[other->config().id] = problems_of(*other, bus_.now());
+    fleet.totals[other->config().id] = totals_of(*other);
+    std::ranges::move(candidates_of(*other), std::back_inserter(status.candidates));
+  }
   status.robots = robot_states(fleet);
+  for (monitor::RobotNow& robot : status.robots) {
+    add_silence(status.lost_after_s, robot);
+    problems_.update(robot, bus_.now());
+  }
   status.maps = progress_.add(status.robots, status.self, status.lost_after_s, bus_.now());
   status.sensors = sensors_.add(agent_.perception(), bus_.now());
+  add_findings(status.sensors);
   status.radio = radio(heard);
   server_.publish(std::make_shared<const monitor::LiveStatus>(std::move(status)));
+}
+
+void LivePublisher::add_findings(std::vector<monitor::SensorNow>& sensors) const {
+  for (SensorFinding& one : sensor_findings(agent_.perception(), bus_.now())) {
+    if (!one.source) continue;
+    const auto sensor = std::ranges::find(sensors, to_string(*one.source), &monitor::SensorNow::name);
+    if (sensor != sensors.end()) sensor->findings.push_back({std::move(one.text), one.is_over});
+  }
 }
 
 monitor::RadioNow LivePublisher::radio(const std::vector<bus::HeardTraffic>& heard) {

@@ -10,6 +10,7 @@
 #include "fleetmap/monitor/server.hpp"
 #include "health/sensor_rates.hpp"
 #include "map_progress.hpp"
+#include "problem_log.hpp"
 #include "robot/link_log.hpp"
 #include "robot/radio_rates.hpp"
 
@@ -35,6 +36,7 @@ class LivePublisher {
                const std::vector<const agent::Agent*>& others = {});
 
  private:
+  void add_findings(std::vector<monitor::SensorNow>& sensors) const;
   monitor::RadioNow radio(const std::vector<bus::HeardTraffic>& heard);
 
   agent::Agent& agent_;
@@ -44,6 +46,7 @@ class LivePublisher {
   RadioRates rates_;
   SensorRates sensors_;
   MapProgress progress_;
+  ProblemLog problems_;
 };
 
 }  // namespace fleetmap::apps

@@ -1,7 +1,9 @@
 #include "loaded_run.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
+#include <iterator>
 #include <map>
 
 #include "fleetmap/core/paths.hpp"
@@ -12,6 +14,7 @@
 #include "fleetmap/output/registrations_file.hpp"
 #include "fleetmap/output/robot_folders.hpp"
 #include "maps/stored_map.hpp"
+#include "report/candidate_report.hpp"
 
 namespace fleetmap::apps {
 
@@ -35,6 +38,18 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
   for (const auto& [maker, holding] : by_maker) holdings.push_back(holding);
 }
 
+/// Adds the candidates that report.json in `folder` has, unless it is of a run before that which wrote
+/// `store`.
+void add_candidates(const fs::path& folder, const fs::path& store, const AgentId& self,
+                    monitor::FleetView& view) {
+  constexpr auto kClosedAfterwards = std::chrono::minutes(10);
+  const fs::path report = folder / "report.json";
+  std::error_code none, missing;
+  const auto written = fs::last_write_time(report, none);
+  if (none || fs::last_write_time(store, missing) - written > kClosedAfterwards) return;
+  std::ranges::move(reported_candidates(report, self), std::back_inserter(view.candidates));
+}
+
 /// Removes what the robots in `without` did, and what others did with it.
 void leave_out(std::span<const AgentId> without, monitor::FleetView& view) {
   if (without.empty()) return;
@@ -44,6 +59,8 @@ void leave_out(std::span<const AgentId> without, monitor::FleetView& view) {
   std::erase_if(view.attempts, [&](const monitor::Attempt& one) {
     return left_out(one.by) || left_out(one.target.agent) || left_out(one.source.agent);
   });
+  std::erase_if(view.candidates,
+                [&](const monitor::PairCandidates& one) { return left_out(one.by) || left_out(one.with); });
   std::erase_if(view.holdings,
                 [&](const monitor::Holding& one) { return left_out(one.holder) || left_out(one.maker); });
   std::erase_if(view.logs, left_out);
@@ -126,6 +143,7 @@ Result<LoadedRun> open_one(const fs::path& file, std::span<const AgentId> withou
     return tl::unexpected(placed.error());
   add_holdings(*run.store, run.view.holdings);
   add_attempts(file.parent_path(), run.store->self(), run.view);
+  add_candidates(file.parent_path(), file, run.store->self(), run.view);
   leave_out(without, run.view);
   return run;
 }
@@ -150,6 +168,7 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
     }
     add_holdings(**store, run.view.holdings);
     add_attempts(file.parent_path(), (*store)->self(), run.view);
+    add_candidates(file.parent_path(), file, (*store)->self(), run.view);
     const bool wanted = robot.empty() ? !run.store || (*store)->nodes().size() > run.store->nodes().size()
                                       : (*store)->self().str() == robot;
     if (!wanted) continue;
@@ -159,6 +178,7 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
   if (!run.store)
     return failure(directory.string() + ": holds no " +
                    (robot.empty() ? "robot's store.db" : "store of " + robot) + "; give the --out of a run");
+  add_candidates(directory, shown, run.store->self(), run.view);
   run.view.title = fs::weakly_canonical(directory).filename().string();
   if (const Status placed = place_held(*run.store, shown, without, run.view); !placed)
     return tl::unexpected(placed.error());

@@ -10,6 +10,7 @@
 #include "live_monitor.hpp"
 #include "maps/stored_map.hpp"
 #include "options.hpp"
+#include "preview_files.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -33,6 +34,7 @@ CommandResult<ExitCode> serve_page(const MonitorOptions& options, std::ostream& 
   auto config = server_config(options.access);
   if (!config) return exit_with(kUsage, config.error());
   config->preview_file = one ? previews_of_store(options.store) : previews_of_run(options.run);
+  config->more_previews = one ? more_previews_of_store(options.store) : more_previews_of_run(options.run);
   const auto without = robots_named(options.without);
   if (!without) return exit_with(kUsage, without.error());
   const LiveMonitor::Read read = [&] {

@@ -104,6 +104,26 @@ void add_status(const messages::AgentStatus& status, monitor::RobotNow& robot) {
   }
 }
 
+/// Adds problems of now, and totals: problems of any time since the robot started.
+void add_health(const FleetState& fleet, monitor::RobotNow& robot) {
+  constexpr std::uint8_t kTotals =
+      messages::Health::kScansNotMatched | messages::Health::kScansDropped | messages::Health::kDiskRefuses;
+  if (const auto messages = fleet.misbehaved.find(robot.id); messages != fleet.misbehaved.end())
+    robot.totals.push_back(fmt::format("sent {} messages that contradict the rules", messages->second));
+  if (const auto known = fleet.problems.find(robot.id); known != fleet.problems.end()) {
+    robot.problems.insert(robot.problems.end(), known->second.begin(), known->second.end());
+    if (const auto totals = fleet.totals.find(robot.id); totals != fleet.totals.end())
+      robot.totals.insert(robot.totals.end(), totals->second.begin(), totals->second.end());
+  } else if (const auto status = fleet.statuses.find(robot.id); status != fleet.statuses.end()) {
+    messages::Health now = status->second.health, since_start = now;
+    now.problems &= static_cast<std::uint8_t>(~kTotals);
+    since_start.problems &= kTotals;
+    for (std::string& words : messages::words_of(now)) robot.problems.push_back(std::move(words));
+    for (std::string& words : messages::words_of(since_start)) robot.totals.push_back(std::move(words));
+  }
+  robot.problems.insert(robot.problems.end(), robot.totals.begin(), robot.totals.end());
+}
+
 monitor::RobotNow robot_now(const FleetState& fleet, const AgentId& id) {
   monitor::RobotNow robot;
   robot.id = id;
@@ -121,14 +141,7 @@ monitor::RobotNow robot_now(const FleetState& fleet, const AgentId& id) {
   const bool is_held = answered && driving->second == Hold::Driving::kHeld && robot.ordered_to_hold;
   robot.activity = activity_now(fleet, id, is_held, robot.called_home);
   add_unconfirmed(fleet, is_held, answered && driving->second == Hold::Driving::kHome, robot);
-  if (const auto messages = fleet.misbehaved.find(id); messages != fleet.misbehaved.end())
-    robot.problems.push_back(fmt::format("sent {} messages that contradict the rules", messages->second));
-  if (const auto known = fleet.problems.find(id); known != fleet.problems.end()) {
-    robot.problems.insert(robot.problems.end(), known->second.begin(), known->second.end());
-  } else if (const auto status = fleet.statuses.find(id); status != fleet.statuses.end()) {
-    for (std::string& words : messages::words_of(status->second.health))
-      robot.problems.push_back(std::move(words));
-  }
+  add_health(fleet, robot);
   robot.heard = heard_of(fleet, id);
   return robot;
 }
@@ -142,6 +155,11 @@ std::string activity_of(const MissionReport& report, const std::vector<planning:
   const messages::RowSet done(rows.size(), report.done.bytes());  // it may be of a longer mission
   const double share = static_cast<double>(done.count()) / static_cast<double>(rows.size());
   return fmt::format("{}, {:.0f} % of the rows are driven", words, 100.0 * share);
+}
+
+void add_silence(double lost_after, monitor::RobotNow& robot) {
+  if (!robot.heard.empty() && robot.heard.front().seconds_ago > lost_after)
+    robot.problems.insert(robot.problems.begin(), "is heard on no radio");
 }
 
 std::vector<monitor::RobotNow> robot_states(const FleetState& fleet) {

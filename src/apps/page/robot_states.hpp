@@ -28,11 +28,15 @@ struct FleetState {
   std::vector<planning::Row> rows;                       ///< of the mission, in its order
   std::string stop_reason;                               ///< why this robot stands still; empty: it does not
   std::map<AgentId, std::vector<std::string>> problems;  ///< of the robots whose insides are known
+  std::map<AgentId, std::vector<std::string>> totals;    ///< likewise, since they started
 };
 
 /// Activity of a robot by its last report, in words. `heading`: its last one, rad from east, if it is known.
 std::string activity_of(const messages::MissionReport& report, const std::vector<planning::Row>& rows,
                         std::optional<double> heading);
+
+/// Makes it a problem that a robot was heard, and is silent for longer than `lost_after` (s).
+void add_silence(double lost_after, monitor::RobotNow& robot);
 
 /// Every robot of the fleet, by name.
 std::vector<monitor::RobotNow> robot_states(const FleetState& fleet);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidate_report.hpp"
 #include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::apps {
@@ -177,7 +178,8 @@ json agent_report(const agent::Agent& agent, const output::Results* results) {
                  {"refused_fleet_messages", agent.link_counters().refused_messages},
                  {"store_conflicts", agent.store().stats().conflicts},
                  {"store_failures", agent.store_failures()},
-                 {"exchange", exchange_json(agent.exchange_stats(), agent.candidate_stats())}};
+                 {"exchange", exchange_json(agent.exchange_stats(), agent.candidate_stats())},
+                 {"candidates_with", candidates_json(candidates_of(agent))}};
   add_holdings(report, agent.store(), results);
   return report;
 }

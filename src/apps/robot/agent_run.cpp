@@ -27,6 +27,7 @@
 #include "page/live_monitor.hpp"
 #include "page/live_publisher.hpp"
 #include "page/monitor_access.hpp"
+#include "page/preview_files.hpp"
 #include "report/report.hpp"
 #include "ros_publisher.hpp"
 #include "sensor_recorder.hpp"
@@ -121,7 +122,10 @@ void print_map(std::ostream& out, const std::filesystem::path& directory, const 
 CommandResult<ExitCode> write_outcome(const config::RobotConfig& config, agent::Agent& agent,
                                       const bus::DdsBus& bus, const AgentOptions& options,
                                       std::ostream& out) {
-  const auto results = output::write_results(agent.store(), agent.config().results());
+  monitor::PreviewWriter previews(previews_of_store(config.agent.directory / "store.db"));
+  const auto results =
+      output::write_results(agent.store(), agent.config().results(), {}, previews.loader(agent.store()));
+  write_or_log(previews);
   if (!results) spdlog::warn("{}", results.error().message);
   const Status written = write_report(agent, results ? &*results : nullptr, radio_access(config.dds, bus),
                                       bus.stalls(), {kVersion, options.config, options.set});

@@ -16,6 +16,7 @@
 #include "fleetmap/output/trajectory_file.hpp"
 #include "options.hpp"
 #include "page/live_monitor.hpp"
+#include "page/preview_files.hpp"
 #include "recordings/recording_feed.hpp"
 #include "recordings/recording_input.hpp"
 #include "report/report.hpp"
@@ -144,9 +145,12 @@ CommandResult<ExitCode> run_fleet(const RunOptions& options, std::ostream& out) 
   const auto page = page_of_run(*page_config, options.out);
   if (!page) return exit_with(kFailed, page.error());
   if (*page) (*fleet)->show_on((*page)->server());
+  monitor::PreviewWriter previews(previews_of_run(options.out));
+  (*fleet)->keep_previews_in(previews);
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
   if (!outcome) return exit_with(kFailed, outcome.error());
+  write_or_log(previews);
   const auto truths = write_truths(twin, *outcome);
   if (!truths) return exit_with(kFailed, truths.error());
   if (setup && outcome->completion && on_own_drawing)

@@ -311,6 +311,15 @@ Result<FleetOutcome> VirtualFleet::run() {
   return outcome;
 }
 
+Result<output::Results> VirtualFleet::write_results_of(store::Store& store,
+                                                       const output::ResultsConfig& config) {
+  const CpuTimer timer(results_seconds_);
+  const store::SubmapLoader load = previews_ ? previews_->loader(store) : store::SubmapLoader();
+  auto written = output::write_results(store, config, maps_, load);
+  if (written) maps_.push_back(written->map);
+  return written;
+}
+
 Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   Member& self = members_[member];
   if (!self.agent) return results_of_store(member);
@@ -321,12 +330,8 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   FleetOutcome::AgentOutcome result;
   result.id = self.id;
   result.directory = self.agent->config().directory;
-  auto written = [&] {
-    const CpuTimer timer(results_seconds_);
-    return output::write_results(self.agent->store(), self.agent->config().results(), maps_);
-  }();
+  auto written = write_results_of(self.agent->store(), self.agent->config().results());
   if (written) {
-    maps_.push_back(written->map);
     result.results = std::move(*written);
   } else {
     result.problem = written.error().message;

@@ -11,6 +11,7 @@
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/monitor/preview_writer.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
@@ -73,6 +74,8 @@ class VirtualFleet {
 
   /// Publishes the fleet's live status there while it runs; `server` outlives this.
   void show_on(monitor::Server& server) { page_ = std::make_unique<VirtualPage>(*network_, server); }
+  /// Adds the submaps of the robots' maps to `previews`, which outlives this.
+  void keep_previews_in(monitor::PreviewWriter& previews) { previews_ = &previews; }
   /// Plays everything, lets the exchange end and writes every agent's results.
   Result<FleetOutcome> run();
 
@@ -121,6 +124,7 @@ class VirtualFleet {
   void note_completion(Duration elapsed);
   bool exchange_ended();
   void report_progress(Duration elapsed) const;
+  Result<output::Results> write_results_of(store::Store& store, const output::ResultsConfig& config);
   Result<FleetOutcome::AgentOutcome> finish(std::size_t member);
   /// Outcome of a member that is switched off at the end.
   FleetOutcome::AgentOutcome results_of_store(std::size_t member);
@@ -129,7 +133,8 @@ class VirtualFleet {
   std::unique_ptr<FleetFeed> feed_;
   std::optional<GeoPoint> origin_;
   std::unique_ptr<bus::LocalNetwork> network_;
-  std::unique_ptr<VirtualPage> page_;  ///< null without one
+  std::unique_ptr<VirtualPage> page_;           ///< null without one
+  monitor::PreviewWriter* previews_ = nullptr;  ///< null without
   std::vector<Member> members_;
   std::optional<Completion> completion_;
   std::vector<output::MapFiles> maps_;  ///< written so far

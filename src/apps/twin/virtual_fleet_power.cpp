@@ -1,7 +1,6 @@
 // Robots that are switched off and on during a run, and radios that pass nothing.
 #include <spdlog/spdlog.h>
 
-#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/output/results.hpp"
 #include "virtual_fleet.hpp"
 
@@ -67,10 +66,8 @@ FleetOutcome::AgentOutcome VirtualFleet::results_of_store(std::size_t member) {
     return result;
   }
   result.store.emplace(std::move(*store));
-  const CpuTimer timer(results_seconds_);
-  auto written = output::write_results(*result.store, config.results(), maps_);
+  auto written = write_results_of(*result.store, config.results());
   if (written) {
-    maps_.push_back(written->map);
     result.results = std::move(*written);
   } else if (!result.store->nodes().empty()) {
     result.problem = written.error().message;

@@ -8,6 +8,7 @@ interface Card {
   activity: HTMLElement;
   facts: HTMLElement;
   problems: HTMLElement;
+  past: HTMLElement;
   hold: HTMLButtonElement;
   home: HTMLButtonElement;
   give: HTMLElement;
@@ -78,7 +79,8 @@ export class FleetNow {
     const badge = el('span', {class: 'badge'}),
       activity = el('p', {class: 'activity'}),
       facts = el('p', {class: 'facts'}),
-      problems = el('ul', {class: 'problems'});
+      problems = el('ul', {class: 'problems'}),
+      past = el('ul', {class: 'past', 'aria-label': `Past problems of ${id}`});
     const robot = () => this.live?.robots.find((one) => one.id === id);
     const hold = this.orderButton('Hold', () => this.order(robot()?.ordered_to_hold ? 'resume' : 'hold', id));
     const home = this.orderButton('Call home', () => this.order(robot()?.called_home ? 'resume' : 'home', id));
@@ -100,10 +102,11 @@ export class FleetNow {
       el('h3', {}, id, badge, hold, home),
       activity,
       problems,
+      past,
       facts,
       give,
     );
-    const card = {article, badge, activity, facts, problems, hold, home, give, row, to};
+    const card = {article, badge, activity, facts, problems, past, hold, home, give, row, to};
     this.cards.set(id, card);
     this.list.append(article);
     return card;
@@ -125,9 +128,11 @@ export class FleetNow {
       lost ? `${robot.id} is lost. Known last: ${robot.activity}.` : `${robot.id} ${robot.activity}.`,
     );
     setText(card.facts, this.facts(robot, isSelf, later));
-    card.problems.hidden = robot.problems.length === 0;
-    if (card.problems.textContent !== robot.problems.join(''))
-      card.problems.replaceChildren(...robot.problems.map((text) => el('li', {}, text)));
+    setItems(card.problems, robot.problems);
+    setItems(
+      card.past,
+      robot.past_problems.map((one) => pastWords(one, later)),
+    );
     card.hold.hidden = !live.operated || !robot.driven;
     setText(card.hold, robot.ordered_to_hold ? 'Resume' : 'Hold');
     card.hold.setAttribute('aria-label', holdLabel(robot));
@@ -171,6 +176,7 @@ export class FleetNow {
         el('th', {scope: 'row'}, one.name),
         el('td', {}, one.samples === 0 ? 'none yet' : `${one.per_second.toFixed(one.per_second < 10 ? 1 : 0)} /s`),
         el('td', {}, clockText(one)),
+        el('td', {}, ...findingsOf(one)),
       ),
     );
     return el(
@@ -182,7 +188,11 @@ export class FleetNow {
         el(
           'thead',
           {},
-          el('tr', {}, ...['of ' + live.self, 'samples', 'clock'].map((name) => el('th', {scope: 'col'}, name))),
+          el(
+            'tr',
+            {},
+            ...['of ' + live.self, 'samples', 'clock', 'findings'].map((name) => el('th', {scope: 'col'}, name)),
+          ),
         ),
         el('tbody', {}, ...rows),
       ),
@@ -226,6 +236,18 @@ export class FleetNow {
   }
 }
 
+function setItems(list: HTMLElement, texts: string[]): void {
+  list.hidden = texts.length === 0;
+  if (list.textContent !== texts.join('')) list.replaceChildren(...texts.map((text) => el('li', {}, text)));
+}
+
+/** A problem whose cause has ended. The page's own clock may be another than the robots'. */
+function pastWords({text, total, seconds_ago}: RobotNow['past_problems'][number], later: number): string {
+  const when = seconds_ago === null ? '' : `${ago(seconds_ago + later)} ago`;
+  if (total) return when ? `${text}, the last time ${when}` : `${text}, at some time since it started`;
+  return when ? `was until ${when}: ${text}` : `was: ${text}`;
+}
+
 function holdLabel(robot: RobotNow): string {
   if (!robot.ordered_to_hold) return `Hold ${robot.id}`;
   return robot.called_home ? `Resume ${robot.id} on its way home` : `Resume ${robot.id}`;
@@ -245,6 +267,11 @@ function setOptions(select: HTMLSelectElement, options: [string, string][]): voi
   const selected = select.value;
   select.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   if (options.some(([value]) => value === selected)) select.value = selected;
+}
+
+function findingsOf({findings}: Sensor): (HTMLElement | string)[] {
+  if (findings.length === 0) return ['–'];
+  return findings.map(({text, over}) => el('div', {class: over ? 'over' : 'bad'}, over ? `was: ${text}` : text));
 }
 
 function clockText(sensor: Sensor): string {

@@ -71,6 +71,7 @@ follow({
     if (!state) setText(byId('summary'), `${live.robots.length} robots · no nodes yet`);
     now.show(live, state);
     fleet.showNow(live);
+    why.showNow(live);
     marks?.showLive(live);
     shownBy = live.self;
     radio.show(live);

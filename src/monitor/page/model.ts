@@ -84,6 +84,13 @@ export interface Pair {
   nearest?: [string, string];
 }
 
+/** The candidates of one robot with another: also those that were never registered. */
+export interface Candidates {
+  by: string;
+  with: string;
+  sentence: string;
+}
+
 export interface State {
   title: string;
   self: string;
@@ -95,6 +102,7 @@ export interface State {
   logs: string[]; // robots whose registrations are known
   holdings: Holding[];
   pairs: Pair[];
+  candidates: Candidates[]; // of robots that ended
   loose_sessions: string[]; // clauses on sessions of a robot that nothing joins
   notes: string[];
   colours: ReadonlyMap<string, string>; // of robots; the page adds them (colours.ts)
@@ -163,7 +171,8 @@ export type LinkName = 'long_range' | 'short_range';
 export interface RobotNow {
   id: string;
   activity: string;
-  problems: string[];
+  problems: string[]; // that are there now
+  past_problems: {text: string; total: boolean; seconds_ago: number | null}[]; // total: counted since it started
   heard: {link: LinkName; seconds_ago: number}[];
   battery: number | null;
   sigma_m: number | null;
@@ -184,6 +193,7 @@ export interface Sensor {
   per_second: number;
   clock_behind_s: number | null;
   clock_slow_ppm: number | null;
+  findings: {text: string; over: boolean}[];
 }
 
 export interface Radio {
@@ -216,6 +226,7 @@ export interface Live {
   sensors: Sensor[];
   radio: Radio;
   maps: FleetMaps;
+  candidates: Candidates[]; // of this robot, and of others in the same process
   operated: boolean;
 }
 

@@ -1,6 +1,15 @@
 import {type Actions, dot, el} from './dom';
 import {patch} from './patch';
-import {findPair, metres, type Pair, type Registration, registrationKeys, type State} from './model';
+import {
+  type Candidates,
+  findPair,
+  type Live,
+  metres,
+  type Pair,
+  type Registration,
+  registrationKeys,
+  type State,
+} from './model';
 
 const kVerdicts = ['accepted', 'ambiguous', 'rejected', 'failed'] as const;
 const kRows = 100;
@@ -9,6 +18,7 @@ const kRecent_s = 60;
 /** Registrations and their reasons, and what joins each pair of robots. */
 export class WhyPanel {
   private state?: State;
+  private live: Candidates[] = []; // of robots that run
   private pair?: [string, string];
   private hasSelected = false; // the reader, a pair or none
   private verdict: string = 'all';
@@ -27,6 +37,13 @@ export class WhyPanel {
     if (apart) this.pair = [apart.a, apart.b];
     this.state = state;
     this.render();
+  }
+
+  /** Candidates of robots that run change without a new state. */
+  showNow(live: Live): void {
+    const before = this.live.map((one) => one.sentence).join();
+    this.live = live.candidates;
+    if (this.state && this.live.map((one) => one.sentence).join() !== before) this.render();
   }
 
   mark(index: number): void {
@@ -146,8 +163,16 @@ export class WhyPanel {
       button.onclick = () => this.actions.selectNode(id);
       facts.append(button, ' ');
     }
-    box.append(facts);
+    box.append(facts, ...this.candidates(state, pair));
     return box;
+  }
+
+  /** Each of the two counts its own; those of a robot that runs again replace those of its last end. */
+  private candidates(state: State, {a, b}: Pair): HTMLElement[] {
+    const runs = new Set(this.live.map((one) => one.by));
+    return [...this.live, ...state.candidates.filter((one) => !runs.has(one.by))]
+      .filter((one) => (one.by === a && one.with === b) || (one.by === b && one.with === a))
+      .map((one) => el('p', {class: 'facts candidates', 'data-key': `candidates ${one.by}`}, one.sentence));
   }
 
   /** Those that the filters let through, but for the verdict: the chips count them. */

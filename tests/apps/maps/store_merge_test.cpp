@@ -33,6 +33,7 @@ TEST_F(StoreMergeTest, AFolderIsMadeForTheStore) {
   const auto store = store::Store::open_read_only(days_.path("both/days/store.db"));
   ASSERT_TRUE(store) << store.error().message;
   EXPECT_EQ(store->nodes().size(), 8u);
+  EXPECT_TRUE(std::filesystem::exists(days_.path("both/days/store.db.previews")));
 }
 
 TEST_F(StoreMergeTest, StoresThatCannotBeMergedFail) {

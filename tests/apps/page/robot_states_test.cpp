@@ -186,5 +186,31 @@ TEST_F(RobotsNow, MisbehaviourIsAProblemOfTheSender) {
   EXPECT_THAT(of(kPeer).problems, ElementsAre("sent 4 messages that contradict the rules"));
 }
 
+TEST_F(RobotsNow, ALostRobotIsAProblemWhichEndsOnceItIsHeardAgain) {
+  monitor::RobotNow robot = of(kPeer);
+  add_silence(60.0, robot);
+  EXPECT_THAT(robot.problems, IsEmpty()) << "it was not heard yet";
+  robot.heard = {{"long_range", 60.0}, {"short_range", 90.0}};
+  add_silence(60.0, robot);
+  EXPECT_THAT(robot.problems, IsEmpty());
+  robot.heard.front().seconds_ago = 61.0;
+  robot.problems = {"no scan comes from its LiDAR"};
+  add_silence(60.0, robot);
+  EXPECT_THAT(robot.problems, ElementsAre("is heard on no radio", "no scan comes from its LiDAR"));
+}
+
+TEST_F(RobotsNow, WhatIsCountedSinceTheStartIsAmongTheProblemsAndNamed) {
+  using messages::Health;
+  fleet_.statuses[kPeer].health.problems = Health::kNoScan | Health::kDiskRefuses | Health::kScansNotMatched;
+  EXPECT_THAT(of(kPeer).totals,
+              ElementsAre("its disk refused writes", "its odometry could not match some scans"));
+  EXPECT_THAT(of(kPeer).problems, ElementsAre("no scan comes from its LiDAR", "its disk refused writes",
+                                              "its odometry could not match some scans"));
+  fleet_.problems[kSelf] = {};
+  fleet_.totals[kSelf] = {"the disk refused 3 writes"};
+  EXPECT_THAT(of(kSelf).problems, ElementsAre("the disk refused 3 writes"));
+  EXPECT_THAT(of(kSelf).totals, ElementsAre("the disk refused 3 writes"));
+}
+
 }  // namespace
 }  // namespace fleetmap::apps

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/small_twin.hpp"
@@ -84,6 +85,44 @@ TEST_F(VirtualPage, ShowsTheFleetAndItsRadiosAndHoldsARobot) {
   EXPECT_EQ(post("/operator/resume?robot=r2"), "202");
   ASSERT_TRUE(eventually([&] { return !run->running(); }, 300s)) << run->output();
   EXPECT_EQ(run->wait(), 0) << run->output();
+}
+
+// Virtual time is deterministic, so a single message that a viewer caused would show.
+TEST_F(VirtualPage, AViewerCostsNoMessageOnAnyRadio) {
+  const std::vector<std::string> two{"--agents", "2", "--set", "max_time=20"};
+  const auto alone = twin_.run("alone", two);
+  ASSERT_TRUE(alone.report.is_object()) << alone.output;
+  auto shown_run = two;
+  shown_run.insert(shown_run.end(), {"--monitor", "0", "--monitor-token-file", twin_.path("token").string()});
+  shown_run.insert(shown_run.begin(), {testing::kProgram, "run", "-c", twin_.path("fleet.yaml").string(),
+                                       "--out", twin_.path("out").string()});
+  testing::Process run(shown_run);
+  ASSERT_TRUE(eventually([&] { return (port_ = testing::announced_port(run.output())) != 0; }, 60s))
+      << run.output();
+  Browser viewer(port_);
+  viewer.upgrade("/live", std::string(kAuthorization) + "Origin: http://" + viewer.host() + "\r\n");
+  ASSERT_NE(viewer.answer().find(" 101 "), std::string::npos);
+  std::size_t statuses = 0, states = 0;
+  for (std::string said = viewer.message(); !said.empty(); said = viewer.message()) {
+    ++(said.find("\"live\"") < 5 ? statuses : states);
+    if (states == 1 && statuses % 4 == 0) {
+      EXPECT_TRUE(get("/state.json").is_object());
+    }
+  }
+  run.wait();
+  EXPECT_GT(statuses, 5u) << "once a virtual second";
+  std::ifstream file(twin_.path("out") / "report.json");
+  const json report = json::parse(file, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << run.output();
+  ASSERT_FALSE(alone.report["links"].empty());
+  // Messages, losses and bytes of each kind, robot and radio.
+  EXPECT_EQ(report["links"], alone.report["links"]);
+  for (const char* robot : {"r1", "r2"}) {
+    const json &shown = report["agents"][robot]["exchange"],
+               &unseen = alone.report["agents"][robot]["exchange"];
+    EXPECT_GT(unseen["long_range_wire_bytes"], 0);
+    EXPECT_EQ(shown, unseen) << robot;
+  }
 }
 
 }  // namespace

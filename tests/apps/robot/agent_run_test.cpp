@@ -10,6 +10,7 @@
 
 #include "apps/kitti_drive.hpp"
 #include "bus/dds_domains.hpp"
+#include "fleetmap/monitor/preview_writer.hpp"
 #include "fleetmap/store/store.hpp"
 #include "support/command_line.hpp"
 #include "support/eventually.hpp"
@@ -117,7 +118,9 @@ TEST_F(AgentRun, KilledAgentResumesFromItsStoreAndTheMapsComeOutEqual) {
   const auto store = store::Store::open_read_only(folder_.path() / "r2" / "store.db");
   ASSERT_TRUE(store);
   std::set<std::uint16_t> sessions;
+  monitor::PreviewWriter previews(folder_.path() / "r2" / "store.db.previews");
   for (const auto& [id, node] : store->nodes()) {
+    EXPECT_TRUE(previews.keep(node.submap_hash)) << "the page has nothing to decode: " << to_string(id);
     if (id.agent.str() == "r2") sessions.insert(node.session);
   }
   EXPECT_EQ(sessions.size(), 2u) << r2->output();

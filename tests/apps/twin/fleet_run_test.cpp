@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/small_twin.hpp"
+#include "fleetmap/monitor/preview_writer.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "support/command_line.hpp"
 
@@ -65,6 +66,13 @@ TEST(FleetRunOfTheTwin, LeavesTheTruthTheSiteAndTheReportOfTheAgentsThatAreKept)
   ASSERT_GT(truth->size(), 10u);
   EXPECT_NEAR(to_seconds(truth->back().stamp - truth->front().stamp), 10.0, 1.0);
   EXPECT_THAT(run.output, HasSubstr("s of virtual time in "));
+  // The page of `fleetmap monitor`, which was not open, has nothing to decode.
+  const auto store = store::Store::open_read_only(run.out / "r1/store.db");
+  ASSERT_TRUE(store) << store.error().message;
+  EXPECT_FALSE(store->nodes().empty());
+  monitor::PreviewWriter previews(run.out / "monitor.previews");
+  for (const auto& [id, node] : store->nodes())
+    EXPECT_EQ(previews.keep(node.submap_hash), store->has_submap(id)) << to_string(id);
 }
 
 }  // namespace

@@ -51,6 +51,50 @@ try {
   assert.equal(card('r2'), before, 'cards stay, so focus stays');
   assert.equal(fleet.root.querySelector('.scroll'), sensors);
   assert.match(textOf(card('r2')), /in contact.*no GPS.*The clock of its gps is about 250 ms ahead/i);
+
+  // Problems that are over are past ones.
+  show({
+    past_problems: [
+      {text: 'no scan for 9 s', total: false, seconds_ago: 30},
+      {text: 'finding', total: false, seconds_ago: null},
+      {text: 'the disk refused 3 writes', total: true, seconds_ago: 200},
+      {text: 'its disk refused writes', total: true, seconds_ago: null},
+    ],
+  });
+  const items = (list) => [...card('r2').querySelectorAll(`.${list} li`)].map((one) => one.textContent);
+  assert.deepEqual(items('problems'), []);
+  assert.ok(card('r2').querySelector('.problems').hidden);
+  assert.deepEqual(items('past'), [
+    'was until 30 s ago: no scan for 9 s',
+    'was: finding',
+    'the disk refused 3 writes, the last time 3:20 min ago',
+    'its disk refused writes, at some time since it started',
+  ]);
+  clock += 5000;
+  page.intervals[0]();
+  assert.equal(items('past')[0], 'was until 35 s ago: no scan for 9 s');
+  const sensor = {name: 'imu', samples: 5, per_second: 1, clock_behind_s: 0, clock_slow_ppm: null};
+  const findings = [
+    {text: 'imu: stamps are 5 s behind', over: true},
+    {text: 'IMU: samples are missing', over: false},
+  ];
+  show(
+    {},
+    {
+      sensors: [
+        {...sensor, findings},
+        {...sensor, name: 'gps', findings: []},
+      ],
+    },
+  );
+  const cells = (name) => [...fleet.root.querySelectorAll(`[data-sensor=${name}] td`)].at(-1);
+  assert.deepEqual(
+    [...cells('imu').querySelectorAll('div')].map((one) => `${one.className} ${one.textContent}`),
+    ['over was: imu: stamps are 5 s behind', 'bad IMU: samples are missing'],
+  );
+  assert.equal(cells('gps').textContent, '–');
+  assert.ok(card('r2').querySelector('.past').hidden);
+
   show({});
   assert.match(textOf(card('r2')), /not heard yet/);
 
@@ -114,8 +158,9 @@ try {
   assert.equal(card('r2').querySelector('.give').hidden, true);
   assert.equal(fleet.root.querySelector('.orders').hidden, true);
 
-  show({}, {sensors: [{name: 'gps', samples: 9, per_second: 4.96, clock_behind_s: -0.2, clock_slow_ppm: 30}]});
-  assert.equal(textOf(fleet.root.querySelector('[data-sensor=gps]')), 'gps5.0 /s200 ms ahead, 30 ppm slow');
+  const gps = {name: 'gps', samples: 9, per_second: 4.96, clock_behind_s: -0.2, clock_slow_ppm: 30, findings: []};
+  show({}, {sensors: [gps]});
+  assert.equal(textOf(fleet.root.querySelector('[data-sensor=gps]')), 'gps5.0 /s200 ms ahead, 30 ppm slow–');
 } finally {
   Object.defineProperty(globalThis, 'performance', {configurable: true, value: real.performance});
   globalThis.fetch = real.fetch;

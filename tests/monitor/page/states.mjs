@@ -73,6 +73,7 @@ export const state = (more = {}) => ({
   logs: ['r1', 'r2'],
   holdings: [],
   pairs: [pair('r1', 'r2', false)],
+  candidates: [],
   loose_sessions: [],
   notes: [],
   colours: new Map([
@@ -86,6 +87,7 @@ export const robotNow = (id, more = {}) => ({
   id,
   activity: 'drives row 7',
   problems: [],
+  past_problems: [],
   heard: [],
   battery: null,
   sigma_m: null,
@@ -106,6 +108,7 @@ export const live = (robots, more = {}) => ({
   lost_after_s: 60,
   robots,
   sensors: [],
+  candidates: [],
   operated: true,
   radio: {
     who_may_join: 'anyone',

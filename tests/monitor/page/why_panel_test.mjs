@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {openPage, textOf} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
-import {alignment, pair, registration, robot, state} from './states.mjs';
+import {alignment, live, pair, registration, robot, state} from './states.mjs';
 
 await openPage(process.argv[2], '<div id="why"></div>');
 const {WhyPanel} = await pageModule(process.argv[2], 'why_panel');
@@ -164,3 +164,16 @@ assert.equal(textOf(root.querySelector('.more')), 'Show 50 more of 250');
 
 const alone = new WhyPanel(document.createElement('div'), actions);
 assert.doesNotThrow(() => alone.show(state({robots: [robot('r1')], pairs: []})));
+
+// Candidates of the two robots, also those that were never registered; those of a robot that runs are the newer ones.
+const waiting = document.createElement('div');
+const candidates = new WhyPanel(waiting, actions);
+const of = (by, other, sentence) => ({by, with: other, sentence});
+const said = () => [...waiting.querySelectorAll('.candidates')].map((one) => one.textContent);
+candidates.showNow(live([], {candidates: [of('r1', 'r2', '3 wait')]}));
+candidates.show(
+  state({candidates: [of('r1', 'r2', '9 waited'), of('r2', 'r1', '5 waited'), of('r2', 'r3', '7 waited')]}),
+);
+assert.deepEqual(said(), ['3 wait', '5 waited']);
+candidates.showNow(live([], {candidates: [of('r1', 'r2', '2 wait')]}));
+assert.deepEqual(said(), ['2 wait', '5 waited']);

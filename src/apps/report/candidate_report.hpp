@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "fleetmap/agent/agent.hpp"
+#include "fleetmap/monitor/pair_candidates.hpp"
+
+namespace fleetmap::apps {
+
+/// The candidates of a robot with each other one of its fleet, by its own count.
+std::vector<monitor::PairCandidates> candidates_of(const agent::Agent& agent);
+
+/// The same for report.json, by the other robot.
+nlohmann::json candidates_json(const std::vector<monitor::PairCandidates>& candidates);
+
+/// Those in a report.json of `run` or of the agent `self`, as they were when the robots ended. Empty where
+/// there is none, or where it is of an older program.
+std::vector<monitor::PairCandidates> reported_candidates(const std::filesystem::path& report,
+                                                         const AgentId& self);
+
+}  // namespace fleetmap::apps
