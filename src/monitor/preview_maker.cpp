@@ -1,6 +1,6 @@
 #include "preview_maker.hpp"
 
-#include <sched.h>
+#include <sys/resource.h>
 
 #include <memory>
 #include <utility>
@@ -11,11 +11,12 @@ namespace {
 /// Work that waits for each thread, so that none stands while the server's thread answers a page.
 constexpr unsigned kAheadPerThread = 8;
 
-/// From now on the calling thread runs when no other thread wants to. A system that refuses that leaves it as
-/// it is: the work is short.
-void yield_to_all() {
-  const sched_param none{};
-  static_cast<void>(sched_setscheduler(0, SCHED_IDLE, &none));  // 0: this thread
+/// From now on the calling thread gets a thirtieth of a processor that others want. Not less, since the
+/// program waits for it at its end, and the server for what it reads of the store. A system that refuses that
+/// leaves it as it is: the work is short.
+void give_way() {
+  constexpr int kNice = 15;
+  static_cast<void>(setpriority(PRIO_PROCESS, 0, kNice));  // 0: on Linux this thread
 }
 
 /// A file is written again when so large a share of it is new; the rest is soon made again.
@@ -56,7 +57,8 @@ void PreviewMaker::start_one() {
   auto [hash, make] = content_.begin_preview();
   ++in_flight_;
   pool_.run([this, hash = std::move(hash), make = std::move(make)] {
-    if (background_) yield_to_all();
+    if (stopped_) return;
+    if (background_) give_way();
     loop_.post([this, hash, preview = make()] {
       --in_flight_;
       content_.end_preview(hash, preview);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "monitor/fake_loop.hpp"
 #include "monitor/views.hpp"
@@ -40,6 +41,7 @@ class PreviewMakerTest : public ::testing::TestWithParam<bool> {
     return {{},
             [this](const NodeId&, const ContentHash&) -> Result<cloud::PointCloud> {
               ++loads_;
+              gate_.wait(false);
               const int now = ++at_once_;
               int most = most_at_once_;
               while (now > most && !most_at_once_.compare_exchange_weak(most, now)) {
@@ -66,6 +68,7 @@ class PreviewMakerTest : public ::testing::TestWithParam<bool> {
 
   ViewMaker fleet_;
   testing::TemporaryFolder folder_;
+  std::atomic<bool> gate_ = true;  ///< decoding waits while it is closed
   std::atomic<int> loads_ = 0, at_once_ = 0, most_at_once_ = 0;
   Content content_ = content();
   FakeLoop loop_;
@@ -79,6 +82,19 @@ TEST_P(PreviewMakerTest, every_preview_is_made_once_on_so_many_threads_at_most) 
   EXPECT_EQ(kept(), 30u);
   EXPECT_EQ(loads_, 30);
   EXPECT_LE(most_at_once_, 2);
+}
+
+TEST_P(PreviewMakerTest, its_end_waits_for_those_at_work_alone) {
+  gate_ = false;
+  {
+    PreviewMaker previews(loop_, content_, 2, GetParam(), {});
+    previews.refresh();
+    while (loads_ < 2) std::this_thread::yield();
+    previews.stop();
+    gate_ = true;
+    gate_.notify_all();
+  }
+  EXPECT_EQ(loads_, 2) << "of 16 that were handed out";
 }
 
 TEST_P(PreviewMakerTest, what_its_file_holds_is_not_decoded_again) {

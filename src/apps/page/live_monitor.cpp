@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <sstream>
 
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/output/registrations_file.hpp"
 #include "preview_files.hpp"
 
@@ -17,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kMinPause{2000};
-constexpr int kPauseFactor = 20;  // of the time that a reading takes
+constexpr int kPauseFactor = 20;    // of the CPU time that a reading takes
+constexpr double kMaxPause = 15.0;  // s
 constexpr unsigned kMaxPreviewThreads = 4;
 
 /// Sizes and times of the files that a view is made of. SQLite writes to the log beside the store first.
@@ -113,12 +116,13 @@ void LiveMonitor::follow() {
       std::unique_lock lock(mutex_);
       if (stopped_.wait_for(lock, pause, [this] { return stop_; })) return;
     }
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = thread_cpu_seconds();
     const Status shown = show_if_changed();
     if (!shown && shown.error().message != failed_) spdlog::info("page: {}", shown.error().message);
     failed_ = shown ? "" : shown.error().message;
-    const auto taken = std::chrono::steady_clock::now() - begin;
-    pause = std::max(kMinPause, std::chrono::duration_cast<std::chrono::milliseconds>(kPauseFactor * taken));
+    // Not by the clock: beside other work a reading takes many times as long, and the page would stand still.
+    const double rest = std::min(kMaxPause, kPauseFactor * (thread_cpu_seconds() - begin));
+    pause = std::max(kMinPause, std::chrono::milliseconds(std::llround(1e3 * rest)));
   }
 }
 

@@ -17,7 +17,8 @@ namespace fleetmap::apps {
 
 /// Serves the page of files that a robot or a run still writes, and shows them anew when they have changed.
 /// Threads of its own read and place them, so a robot neither waits for a viewer nor copies anything for one.
-/// They take at most about a twentieth of a core: after each reading they pause for twenty times as long.
+/// They take about a twentieth of a core: after each reading they pause for twenty times the CPU time that it
+/// took, 15 s at most.
 class LiveMonitor {
  public:
   using Read = std::function<Result<LoadedRun>()>;
