@@ -12,7 +12,7 @@
 namespace fleetmap::output {
 namespace {
 
-/// Of the vertical system, whose surface the receiver's maker alone knows.
+/// Name of the vertical system: the maker of the receiver alone knows its surface.
 constexpr const char* kMeanSeaLevel = "mean sea level by GPS";
 
 constexpr const char* kOffered =
