@@ -11,7 +11,6 @@
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/graph/frame_name.hpp"
-#include "fleetmap/output/lidar_mount.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "live_placement.hpp"
 #include "loop_closing_setup.hpp"
@@ -159,7 +158,7 @@ void Agent::on_estimate(ScanEstimate&& estimate) {
   if (!frame_.admits(perception_->odometry_counters(),
                      [this](const char* why) { return begin_session(why); }))
     return;
-  keep_lidar_mount();
+  keep_facts();
   if (numbers_run_out()) begin_session("no number is left for another item of this session");
   const odometry::OdometryUpdate& update = estimate.odometry;
   scan_seconds_.add(estimate.cpu_seconds);
@@ -176,10 +175,9 @@ std::shared_ptr<const graph::PlacedFleet> Agent::placed_fleet() const {
   return live_placement_ ? live_placement_->fleet() : nullptr;
 }
 
-void Agent::keep_lidar_mount() {
-  if (std::exchange(lidar_mount_kept_, true)) return;
-  const Status kept = output::keep_lidar_mount(store_, perception_->T_base_lidar().translation());
-  if (!kept) handle(exchange::StoreFailed{kept.error()});
+void Agent::keep_facts() {
+  if (const Status kept = facts_.keep(store_, *perception_); !kept)
+    handle(exchange::StoreFailed{kept.error()});
 }
 
 void Agent::navigate() {

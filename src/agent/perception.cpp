@@ -105,7 +105,10 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
         ++count;
         if (!placed(source, cdr)) return;
         watch_clock(source, sample->stamp);
-        if (clock_offsets_.unclear(source)) return void(++counters_.unclear_stamps);
+        if (clock_offsets_.unclear(source)) {
+          health_.hold(*sample);
+          return void(++counters_.unclear_stamps);
+        }
         sample->stamp += clock_offsets_.correction(source);
         const bool sound = health_.check(*sample);
         log_findings();
@@ -175,7 +178,10 @@ void Perception::on_scan(const Bytes& cdr) {
   // One without a stamp is refused when it is decoded.
   if (const auto stamp = ros_codec::stamp_of_points(cdr, config_.topics.points_type))
     watch_clock(sensor::Source::kLidar, *stamp);
-  if (clock_offsets_.unclear(sensor::Source::kLidar)) return void(++counters_.unclear_stamps);
+  if (clock_offsets_.unclear(sensor::Source::kLidar)) {
+    health_.hold(sensor::Scan());
+    return void(++counters_.unclear_stamps);
+  }
   if (on_scan_) on_scan_();
   scans_.push({last_scan_, cdr});
   if (scans_.dropped() > counters_.dropped_scans) {
@@ -213,7 +219,7 @@ void Perception::work_on(Job& job) {
   auto decoded = ros_codec::decode_points(job.scan, config_.topics.points_type);
   if (decoded) {
     decoded->scan.stamp += job.clock_correction;
-    job.times_in_microseconds = decoded->times_in_microseconds;
+    job.point_times = decoded->time_unit;
     job.sweep = {decoded->scan.stamp, sensor::sweep_of(decoded->scan)};
     if (job.find_ground) job.ground = sensor::ground_normal(decoded->scan, config_.odometry.T_base_lidar);
     check_turns(job, decoded->scan);
@@ -240,10 +246,8 @@ void Perception::finish(Job& job) {
   if (job.update)
     health_.check_motion(job.update->stamp,
                          job.update->lost ? std::nullopt : std::optional(job.update->T_odom_base));
-  if (job.times_in_microseconds)
-    health_.add_finding(
-        "LiDAR: point times are in microseconds, although the field's definition is nanoseconds; they are "
-        "converted. Correct the driver");
+  if (const std::string news = ros_codec::finding_of(job.point_times); !news.empty())
+    health_.add_finding(news);
   log_findings();
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;

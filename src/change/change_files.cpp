@@ -70,7 +70,7 @@ std::string to_table(const Changes& changes, const std::optional<GeoPoint>& orig
   return out.str();
 }
 
-std::string to_geojson(const Changes& changes, const GeoPoint& origin) {
+std::string to_geojson(const Changes& changes, const GeoPoint& origin, bool above_sea_level) {
   const LocalFrame enu(origin);
   nlohmann::json features = nlohmann::json::array();
   for (const Change& change : changes.changes) {
@@ -98,6 +98,7 @@ std::string to_geojson(const Changes& changes, const GeoPoint& origin) {
                            {rounded(place.longitude / kDegree, 1e-9), rounded(place.latitude / kDegree, 1e-9),
                             rounded(place.altitude, 0.01)}}}},
                         {"properties", properties}});
+    if (above_sea_level) features.back()["geometry"]["coordinates"].erase(2);
   }
   return nlohmann::json{{"type", "FeatureCollection"}, {"features", features}}.dump(1) + '\n';
 }

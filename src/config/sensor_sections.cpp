@@ -195,6 +195,21 @@ void read_mavlink(Section& top, bool lidar_has_imu, agent::DeviceConfig& devices
   mavlink.finish();
 }
 
+void read_geoid(Section& gps, agent::DeviceConfig& devices) {
+  if (!gps.has("geoid")) return;
+  std::string name;
+  gps.read("geoid", name);
+  if (!devices.nmea && !devices.gpsd && !(devices.mavlink && devices.mavlink_gps)) {
+    gps.problem("geoid",
+                "is of use with gps.nmea_device, gps.gpsd or mavlink alone: fixes of a driver are above the "
+                "ellipsoid by their definition (NavSatFix)");
+    return;
+  }
+  auto geoid = Geoid::load(name);
+  if (!geoid) return gps.problem("geoid", geoid.error().message);
+  devices.geoid = std::move(*geoid);
+}
+
 void read_gps(Section& top, agent::PerceptionConfig& perception) {
   localization::EkfConfig& ekf = perception.localization;
   agent::DeviceConfig& devices = perception.devices;
@@ -208,6 +223,9 @@ void read_gps(Section& top, agent::PerceptionConfig& perception) {
   gps.read("use", perception.uses_gps);
   if (!perception.uses_gps && (devices.nmea || devices.gpsd))
     gps.problem("use", "a receiver is given as well; leave one of them out");
+  if (!perception.uses_gps && devices.mavlink && devices.mavlink_gps)
+    gps.problem("use", "the autopilot's GPS is used; set mavlink.gps: false as well");
+  read_geoid(gps, devices);
   gps.read("translation", ekf.mounting.p_base_antenna);
   perception.mount_configured[static_cast<std::size_t>(sensor::Source::kGps)] = gps.has("translation");
   gps.read("correlation_time", ekf.gps.correlation_time);

@@ -76,8 +76,8 @@ std::string utm_wkt(const UtmZone& zone, const std::optional<std::string>& geoid
          heights.wkt + "]";
 }
 
-std::string local_wkt(const std::optional<GeoPoint>& origin) {
-  const std::string name = origin ? "East-north-up frame at " + origin_text(*origin)
+std::string local_wkt(const std::optional<GeoPoint>& origin, bool above_sea_level) {
+  const std::string name = origin ? "East-north-up frame at " + origin_text(*origin, above_sea_level)
                                   : std::string("Local frame, place and heading on Earth unknown");
   // Without the third axis, since PROJ refuses local systems that have one.
   const std::string axes =
@@ -85,11 +85,11 @@ std::string local_wkt(const std::optional<GeoPoint>& origin) {
   return "LOCAL_CS[\"" + name + R"(",LOCAL_DATUM["fleetmap site",10000],)" + std::string(kMetre) + axes + "]";
 }
 
-std::string origin_text(const GeoPoint& origin) {
+std::string origin_text(const GeoPoint& origin, bool above_sea_level) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(9) << origin.latitude / kDegree << ", "
        << origin.longitude / kDegree << " deg, " << std::setprecision(3) << origin.altitude
-       << " m above the WGS 84 ellipsoid";
+       << (above_sea_level ? " m above mean sea level as GPS gave it" : " m above the WGS 84 ellipsoid");
   return text.str();
 }
 

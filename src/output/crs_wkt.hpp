@@ -14,9 +14,10 @@ namespace fleetmap::output {
 std::string utm_wkt(const UtmZone& zone, const std::optional<std::string>& geoid);
 
 /// The east-north-up frame at `origin`; without one a local frame at an unknown place.
-std::string local_wkt(const std::optional<GeoPoint>& origin);
+std::string local_wkt(const std::optional<GeoPoint>& origin, bool above_sea_level = false);
 
-/// "39.000000000, -3.000000000 deg, 600.000 m above the WGS 84 ellipsoid"
-std::string origin_text(const GeoPoint& origin);
+/// "39.000000000, -3.000000000 deg, 600.000 m above the WGS 84 ellipsoid", or "above mean sea level as GPS
+/// gave it"
+std::string origin_text(const GeoPoint& origin, bool above_sea_level = false);
 
 }  // namespace fleetmap::output

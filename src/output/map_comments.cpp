@@ -7,13 +7,15 @@
 #include "fleetmap/output/map_crs.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 
 namespace fleetmap::output {
 
 std::vector<std::string> map_comments(const store::Store& store, const MapPart& part, const GeoPoint& origin,
                                       const store::MergeConfig& config) {
   std::vector<std::string> comments;
-  const auto crs = MapCrs::of({CrsRequest::Kind::enu, {}}, {origin, part.georeferenced}, std::nullopt);
+  const auto crs = MapCrs::of({CrsRequest::Kind::enu, {}},
+                              {origin, part.georeferenced, has_sea_level_heights(store)}, std::nullopt);
   if (crs) comments.insert(comments.end(), {crs->text(), "CRS: " + crs->wkt()});
   std::set<std::string> robots;
   for (const auto& [id, T_map_node] : part.T_map_node) robots.insert(id.agent.str());

@@ -12,6 +12,9 @@
 namespace fleetmap::output {
 namespace {
 
+/// Name of the vertical system: the maker of the receiver alone knows its surface.
+constexpr const char* kMeanSeaLevel = "mean sea level by GPS";
+
 constexpr const char* kOffered =
     "expected utm (the site's own zone), a UTM zone of WGS 84 (EPSG:32601 to EPSG:32660, EPSG:32701 to "
     "EPSG:32760) or enu";
@@ -46,6 +49,7 @@ Result<CrsRequest> parse_crs(std::string_view text) {
 }
 
 Result<MapCrs> MapCrs::of(const CrsRequest& request, const MapPlace& place, std::optional<Geoid> geoid) {
+  if (geoid && place.above_sea_level) return failure(kNoGeoid);
   if (request.kind == CrsRequest::Kind::enu) {
     if (geoid)
       return failure("heights in enu are above a plane at the origin, not above a geoid: no --geoid");
@@ -77,19 +81,25 @@ Result<MapCrs> MapCrs::of(const CrsRequest& request, const MapPlace& place, std:
 std::string MapCrs::name() const { return zone_ ? epsg_name(*zone_) : "enu"; }
 
 std::string MapCrs::wkt() const {
-  if (!zone_) return local_wkt(place_.georeferenced ? std::optional(place_.origin) : std::nullopt);
-  return utm_wkt(*zone_, geoid_ ? std::optional(geoid_->name()) : std::nullopt);
+  if (!zone_)
+    return local_wkt(place_.georeferenced ? std::optional(place_.origin) : std::nullopt,
+                     place_.above_sea_level);
+  return utm_wkt(*zone_, geoid_                   ? std::optional(geoid_->name())
+                         : place_.above_sea_level ? std::optional<std::string>(kMeanSeaLevel)
+                                                  : std::nullopt);
 }
 
 std::string MapCrs::text() const {
   if (!zone_ && place_.georeferenced)
-    return "Coordinates: metres east, north and up of " + origin_text(place_.origin) + ".";
+    return "Coordinates: metres east, north and up of " + origin_text(place_.origin, place_.above_sea_level) +
+           ".";
   if (!zone_) {
     return "Coordinates: metres in the map's own frame, z up. Nobody knows its place and its heading on "
            "Earth, for none of its robots had GPS.";
   }
   const std::string coordinates = "Coordinates: metres in " + name() + " (WGS 84 / UTM zone " +
                                   std::to_string(zone_->number) + (zone_->north ? "N" : "S") + "). ";
+  if (place_.above_sea_level) return coordinates + "Heights: metres above mean sea level as GPS gave them.";
   if (geoid_) return coordinates + "Heights: metres above the geoid " + geoid_->name() + " (sea level).";
   return coordinates + "Heights: metres above the WGS 84 ellipsoid, not above sea level.";
 }

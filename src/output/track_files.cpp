@@ -9,6 +9,7 @@
 #include "fleetmap/core/utc.hpp"
 #include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/map_crs.hpp"
 
 namespace fleetmap::output {
 namespace {
@@ -58,7 +59,8 @@ Result<std::string> gpx_place(const TrackPoint& point, const std::optional<Geoid
 }  // namespace
 
 Result<std::string> to_gpx(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
-                           const GeoPoint& origin, const std::optional<Geoid>& geoid) {
+                           const GeoPoint& origin, const std::optional<Geoid>& geoid, bool above_sea_level) {
+  if (geoid && above_sea_level) return failure(kNoGeoid);
   std::ostringstream waypoints, tracks;
   for (const auto& [frame, points] : tracks_of(nodes, T_enu_node, origin)) {
     tracks << "<trk><name>" << graph::to_string(frame) << "</name><trkseg>\n";
@@ -70,8 +72,9 @@ Result<std::string> to_gpx(const std::vector<graph::Node>& nodes, const std::map
     }
     tracks << "</trkseg></trk>\n";
   }
-  const std::string heights = geoid ? "above the geoid " + geoid->name() + " (sea level)"
-                                    : "above the WGS 84 ellipsoid, not above sea level";
+  const std::string heights = geoid             ? "above the geoid " + geoid->name() + " (sea level)"
+                              : above_sea_level ? "above mean sea level as GPS gave them"
+                                                : "above the WGS 84 ellipsoid, not above sea level";
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<gpx version=\"1.1\" creator=\"fleetmap\" xmlns=\"http://www.topografix.com/GPX/1/1\">\n"
          "<metadata><desc>Heights: metres " +
@@ -79,12 +82,13 @@ Result<std::string> to_gpx(const std::vector<graph::Node>& nodes, const std::map
 }
 
 std::string to_geojson(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
-                       const GeoPoint& origin) {
+                       const GeoPoint& origin, bool above_sea_level) {
   nlohmann::json features = nlohmann::json::array();
   for (const auto& [frame, points] : tracks_of(nodes, T_enu_node, origin)) {
     nlohmann::json line = nlohmann::json::array();
     for (const TrackPoint& point : points) {
       line.push_back(coordinates(point.position));
+      if (above_sea_level) line.back().erase(2);
       features.push_back(
           {{"type", "Feature"},
            {"geometry", {{"type", "Point"}, {"coordinates", line.back()}}},

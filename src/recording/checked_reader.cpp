@@ -101,12 +101,8 @@ bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const st
   counters_.non_finite_points += decoded.non_finite_points;
   counters_.origin_points += decoded.origin_points;
   counters_.noise_points += decoded.noise_points;
-  if (decoded.times_in_microseconds) {
-    skip(&Counters::microsecond_scans,
-         where +
-             ": point times are a sweep in microseconds, not in nanoseconds; they are "
-             "converted");
-  }
+  if (const std::string finding = ros_codec::finding_of(decoded.time_unit); !finding.empty())
+    skip(&Counters::microsecond_scans, where + ": " + finding);
   if (decoded.foreign_clock) {
     skip(&Counters::foreign_clock_scans, where +
                                              ": point times are far from the header's stamp; "

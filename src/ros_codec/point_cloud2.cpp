@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "fleetmap/bus/cdr.hpp"
 #include "fleetmap/core/text_list.hpp"
@@ -29,6 +30,12 @@ constexpr double kMaxScanSeconds = 10.0;  // point times further from the stamp 
 constexpr double kMinSweep = 5e3;         // integer units of point time, were they microseconds
 constexpr double kShortestInNanoseconds = 1e6;
 constexpr double kNanosecondsBeyond = 1e12;  // a float time beyond this is in ns: 1e12 s is no date
+
+constexpr double kShortestSweep = 5e-3, kLongestSweep = 1.0;  // s
+constexpr double kMiddleShare = 0.2;
+constexpr std::array kFloatUnits{std::pair{TimeUnit::kMilliseconds, 1e-3},
+                                 std::pair{TimeUnit::kMicroseconds, 1e-6},
+                                 std::pair{TimeUnit::kNanoseconds, 1e-9}};
 
 /// One field of every point, in its own type and byte order.
 struct Field {
@@ -130,6 +137,29 @@ Result<Layout> read_layout(const PointCloud2_& in) {
   return layout;
 }
 
+/// The unit of floats from 0 on that last a sweep of 5 ms to 1 s in one unit alone. One stray point does not
+/// decide it: the middle half of the times has to reach over a fifth of the sweep.
+TimeUnit unit_of_floats(std::vector<double> times, double span) {
+  if (span <= kLongestSweep) return TimeUnit::kAsDefined;
+  const auto quarter = static_cast<std::ptrdiff_t>(times.size() / 4);
+  const auto low = times.begin() + quarter, high = times.end() - 1 - quarter;
+  std::ranges::nth_element(times, low);
+  const double first = *low;
+  std::ranges::nth_element(times, high);
+  if (*high - first < kMiddleShare * span) return TimeUnit::kUnclear;
+  for (const auto& [unit, seconds] : kFloatUnits) {
+    if (span * seconds >= kShortestSweep && span * seconds <= kLongestSweep) return unit;
+  }
+  return TimeUnit::kUnclear;
+}
+
+double seconds_of(TimeUnit unit, double as_defined) {
+  for (const auto& [other, seconds] : kFloatUnits) {
+    if (unit == other) return seconds;
+  }
+  return as_defined;
+}
+
 /// Point times as read, in the field's own unit, become seconds after the stamp.
 void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, DecodedScan& out) {
   double earliest = std::numeric_limits<double>::infinity(), latest = -earliest;
@@ -138,23 +168,28 @@ void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, 
     earliest = std::min(earliest, time);
     latest = std::max(latest, time);
   }
-  const bool nanoseconds =
-      !field.is_float() || std::max(std::abs(earliest), std::abs(latest)) > kNanosecondsBeyond;
+  const double largest = std::max(std::abs(earliest), std::abs(latest));
+  const bool nanoseconds = !field.is_float() || largest > kNanosecondsBeyond;
   // A sweep takes 5 ms to 1 s, which is less than 1 ms if microseconds are taken for nanoseconds.
   const double span = latest - earliest;
-  out.times_in_microseconds = !field.is_float() && span >= kMinSweep && span < kShortestInNanoseconds;
-  const double unit = out.times_in_microseconds ? 1e-6 : nanoseconds ? 1e-9 : 1.0;
+  if (!field.is_float() && span >= kMinSweep && span < kShortestInNanoseconds)
+    out.time_unit = TimeUnit::kMicroseconds;
+  // Floats that are relative to the stamp: the largest of them is about the sweep.
+  if (field.is_float() && largest <= 2.0 * span) out.time_unit = unit_of_floats(times, span);
+  if (out.time_unit == TimeUnit::kUnclear) return;
+  const double unit = seconds_of(out.time_unit, nanoseconds ? 1e-9 : 1.0);
   double zero = 0.0;
   if (times.size() > 1 && latest == earliest) return;  // a driver that leaves the field at a constant
-  if (std::max(std::abs(earliest), std::abs(latest)) * unit > kMaxScanSeconds) {
+  if (largest * unit > kMaxScanSeconds) {
     if (field.datatype == kFloat32) return;  // cannot resolve a scan in absolute time
     // Absolute. The stamp in the field's unit has the field's own rounding, so the difference is exact
     // enough. Microseconds of 32 bits cannot count from 1970.
     const double start = nanoseconds ? static_cast<double>(to_ns(stamp)) : to_seconds(stamp);
-    out.foreign_clock = out.times_in_microseconds || std::abs(earliest - start) * unit > kMaxScanSeconds;
+    out.foreign_clock =
+        out.time_unit != TimeUnit::kAsDefined || std::abs(earliest - start) * unit > kMaxScanSeconds;
     zero = out.foreign_clock ? earliest : start;
   }
-  if ((latest - earliest) * unit > kMaxScanSeconds) return;  // not the time within one scan
+  if (span * unit > kMaxScanSeconds) return;  // not the time within one scan
   for (std::size_t k = 0; k < times.size(); ++k) {
     out.scan.points[k].time = static_cast<float>((times[k] - zero) * unit);
   }
@@ -211,6 +246,29 @@ void add_field(PointCloud2_& out, const char* name, std::uint32_t offset, PointD
 }
 
 }  // namespace
+
+std::string finding_of(TimeUnit unit) {
+  const auto converted = [](const char* name) {
+    return std::string("LiDAR: point times are in ") + name +
+           ", although their field's definition is nanoseconds for integers and seconds for floats; they are "
+           "converted. Correct the driver";
+  };
+  switch (unit) {
+    case TimeUnit::kMicroseconds:
+      return converted("microseconds");
+    case TimeUnit::kMilliseconds:
+      return converted("milliseconds");
+    case TimeUnit::kNanoseconds:
+      return converted("nanoseconds");
+    case TimeUnit::kUnclear:
+      return "LiDAR: point times are floats that last a sweep of 5 ms to 1 s in no unit; they are not used, "
+             "so "
+             "the motion within a sweep is taken from the order of the points. Correct the driver: seconds "
+             "after the stamp";
+    default:
+      return {};
+  }
+}
 
 Bytes encode(const sensor::Scan& scan, std::string_view frame_id) {
   PointCloud2_ out;

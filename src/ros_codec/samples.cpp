@@ -20,6 +20,9 @@ using nav_msgs::msg::dds_::Odometry_;
 
 constexpr std::size_t kYawRateVariance = 35;
 constexpr std::int8_t kNoFix = -1;
+/// Bits of NavSatStatus.service. The definition has no field for heights above sea level, which a recording
+/// has to keep, and uses the lowest four.
+enum Service : std::uint16_t { kGps = 1, kAboveSeaLevel = 0x8000 };
 enum CovarianceType : std::uint8_t { kUnknown = 0, kKnown = 3 };
 
 /// Unit, or close enough that rounding explains the rest.
@@ -80,7 +83,7 @@ Bytes encode(const sensor::Fix& fix, std::string_view frame_id) {
   out.header().stamp(to_ros(fix.stamp));
   out.header().frame_id(std::string(frame_id));
   out.status().status(fix.valid ? 0 : kNoFix);
-  out.status().service(1);
+  out.status().service(static_cast<std::uint16_t>(fix.above_sea_level ? kGps | kAboveSeaLevel : kGps));
   out.latitude(fix.position.latitude / kDegree);
   out.longitude(fix.position.longitude / kDegree);
   out.altitude(fix.position.altitude);
@@ -103,6 +106,7 @@ Result<sensor::Fix> decode(ByteView cdr) {
   fix.stamp = *stamp;
   fix.position = geo_point_from_degrees(in->latitude(), in->longitude(), in->altitude());
   fix.valid = in->status().status() > kNoFix && is_valid(fix.position);
+  fix.above_sea_level = in->status().service() == (kGps | kAboveSeaLevel);
   if (in->position_covariance_type() != kUnknown) {
     for (std::size_t k = 0; k < 9; ++k) {
       fix.covariance(static_cast<int>(k) / 3, static_cast<int>(k) % 3) = in->position_covariance()[k];

@@ -37,7 +37,8 @@ Fix fix_of(const json& report, Stamp stamp, std::uint64_t& above_sea_level) {
     fix.position = geo_point_from_degrees(*latitude, *longitude, altitude.value_or(0.0));
   fix.valid = number_of(report, "mode").value_or(0.0) >= kFix3d && latitude && longitude && altitude &&
               is_valid(fix.position);
-  if (fix.valid && !ellipsoid) ++above_sea_level;
+  fix.above_sea_level = altitude && !ellipsoid;
+  if (fix.valid && fix.above_sea_level) ++above_sea_level;
   const auto east = number_of(report, "epx"), north = number_of(report, "epy"), up = number_of(report, "epv");
   if (east && north && up) fix.covariance.diagonal() << *east * *east, *north * *north, *up * *up;
   return fix;

@@ -97,7 +97,8 @@ void MavlinkSensors::handle(const MavlinkGps& message, Stamp, DeviceSamples& sam
   if (!stamp) return;
   Fix fix{.stamp = *stamp, .position = message.position};
   fix.valid = message.fix_type >= kFixWithAltitude && is_valid(fix.position);
-  if (fix.valid && !message.has_ellipsoid) ++counters_.above_sea_level;
+  fix.above_sea_level = fix.valid && !message.has_ellipsoid;
+  if (fix.above_sea_level) ++counters_.above_sea_level;
   const double h = message.sigma_h * message.sigma_h, v = message.sigma_v * message.sigma_v;
   if (h > 0.0 && v > 0.0) fix.covariance.diagonal() << h, h, v;
   samples.fixes.push_back(fix);

@@ -45,7 +45,8 @@ void NmeaFixes::handle(const NmeaGga& gga, Stamp arrival, DeviceSamples& samples
   finish(samples);
   Fix fix{.stamp = utc(gga.time, arrival), .position = gga.position};
   fix.valid = gga.quality > 0 && is_valid(gga.position);
-  if (fix.valid && !gga.has_geoid) ++above_sea_level_;
+  fix.above_sea_level = fix.valid && !gga.has_geoid;
+  if (fix.above_sea_level) ++above_sea_level_;
   waiting_ = fix;
   waiting_time_ = gga.time;
   const bool expected = gst_arrival_ && arrival - *gst_arrival_ < kGstExpected;

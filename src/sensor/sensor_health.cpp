@@ -1,7 +1,6 @@
 #include "fleetmap/sensor/sensor_health.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -10,8 +9,8 @@
 #include "fleetmap/core/receive_buffer.hpp"
 #include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "force_unit.hpp"
 #include "short_number.hpp"
-#include "standard_gravity.hpp"
 
 namespace fleetmap::sensor {
 namespace {
@@ -42,22 +41,6 @@ constexpr Duration kMinGapObservation = std::chrono::seconds(10);
 constexpr double kGapShare = 0.1;
 constexpr double kSteepest = 25.0 * kDegree;  // slope on which a robot starts
 constexpr double kLevel = 5.0 * kDegree;      // tilt of the ground in base_link
-
-/// Unit of a specific force whose norm is that of gravity.
-struct ForceUnit {
-  const char* name;
-  double scale;
-};
-constexpr std::array kForceUnits{ForceUnit{"m/s^2", 1.0}, ForceUnit{"g", kStandardGravity},
-                                 ForceUnit{"milli-g", 1e-3 * kStandardGravity}};
-
-const ForceUnit* force_unit_of(double norm) {
-  const auto fits = [norm](const ForceUnit& unit) {
-    return std::abs(norm * unit.scale - kStandardGravity) < 0.35 * kStandardGravity;
-  };
-  const auto* unit = std::ranges::find_if(kForceUnits, fits);
-  return unit == kForceUnits.end() ? nullptr : unit;
-}
 
 /// Component by component, which ground that is seen askew now and then does not shift.
 Eigen::Vector3d median(std::vector<Eigen::Vector3d> vectors) {
@@ -284,6 +267,12 @@ bool SensorHealth::check(Fix& fix) {
   if (!somewhere && fix.valid) return refuse();
   const bool flat = somewhere && !std::isfinite(p.altitude);
   if (!flat) {
+    if (fix.valid && fix.above_sea_level && !std::exchange(above_sea_level_, true))
+      state(
+          "GPS: heights are above mean sea level, since the receiver states none above the ellipsoid: the "
+          "map "
+          "is up to 100 m lower or higher than those of other robots. Set gps.geoid: egm2008-5 where the "
+          "receiver is read, on all robots, or let the receiver state the height of the geoid");
     fix.valid ? silences_.add_fix(fix.stamp) : silences_.add_empty_fix();
     gps_.add(fix);
     fix.position.altitude -= gps_.height_correction();

@@ -187,6 +187,12 @@ TEST(SensorSections, ProblemsNameTheKeyWhereverItStands) {
   EXPECT_FALSE(perception_of("gps: {use: false}\n").perception.uses_gps);
   EXPECT_THAT(perception_of("gps: {use: false, gpsd: localhost}\n").problems,
               HasSubstr("gps.use: a receiver"));
+  EXPECT_THAT(perception_of("gps: {use: false}\nmavlink: {udp_port: 14550}\n").problems,
+              HasSubstr("gps.use: the autopilot's GPS"));
+  EXPECT_EQ(perception_of("gps: {use: false}\nmavlink: {udp_port: 14550, gps: false}\n").problems, "");
+  EXPECT_THAT(perception_of("gps: {geoid: egm2008-5}\n").problems, HasSubstr("gps.geoid: is of use with"));
+  EXPECT_THAT(perception_of("gps: {gpsd: localhost, geoid: nothing-7}\n").problems,
+              HasSubstr("geographiclib-get-geoids nothing-7"));
   EXPECT_THAT(perception_of("gps: {sigma: 1}\n").problems, HasSubstr("gps.sigma: unknown key"));
   EXPECT_THAT(perception_of("wheel: {speed_sigma: 0}\n").problems, HasSubstr("wheel.speed_sigma"));
 }

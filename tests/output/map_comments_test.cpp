@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/output/map_files.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 #include "support/scene_store.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -45,6 +46,17 @@ TEST(MapComments, AreOneShortLineEach) {
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_LT(line.size(), 1000u) << "readers of PLY have a limit";
   }
+}
+
+TEST(MapComments, HeightsAboveSeaLevelAreNotCalledEllipsoidal) {
+  const fleetmap::testing::TemporaryFolder folder;
+  auto store = store::Store::open(folder.path() / "store.db", AgentId::parse("r1").value());
+  ASSERT_TRUE(store);
+  const MapPart part{{}, fleetmap::testing::add_scene(*store), true};
+  ASSERT_TRUE(keep_sea_level_heights(*store));
+  const auto comments = map_comments(*store, part, fleetmap::testing::kSceneOrigin, {});
+  EXPECT_THAT(comments.front(), HasSubstr("110.000 m above mean sea level as GPS gave it"));
+  for (const std::string& line : comments) EXPECT_EQ(line.find("ellipsoid"), std::string::npos) << line;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Kind = CrsRequest::Kind;
 
 const MapPlace kSpain{geo_point_from_degrees(39.0, -0.02, 600.0), true};  // 1.7 km west of zone 31
@@ -135,6 +136,27 @@ TEST(MapCrs, APointThatIsNoneHasNoCoordinates) {
   EXPECT_FALSE(coordinates->front().allFinite());
   const Eigen::Vector3d& far = coordinates->back();
   EXPECT_TRUE(!far.allFinite() || std::abs(far.z()) > 1e9);
+}
+
+TEST(MapCrs, HeightsAboveSeaLevelAreNoEllipsoidalOnesAndTakeNoGeoid) {
+  MapPlace place = kSpain;
+  place.above_sea_level = true;
+  const auto crs = MapCrs::of({}, place, std::nullopt);
+  ASSERT_TRUE(crs);
+  EXPECT_THAT(crs->text(), HasSubstr("Heights: metres above mean sea level as GPS gave them."));
+  EXPECT_THAT(crs->wkt(), AllOf(HasSubstr("mean sea level"), Not(HasSubstr("llipsoid"))));
+  const auto enu = MapCrs::of({Kind::enu, {}}, place, std::nullopt);
+  ASSERT_TRUE(enu);
+  EXPECT_THAT(enu->text() + enu->wkt(),
+              AllOf(HasSubstr("600.000 m above mean sea level as GPS gave it"), Not(HasSubstr("llipsoid"))));
+  const testing::TemporaryFolder folder;
+  testing::write_sloped_geoid(folder.path(), "slope");
+  setenv("GEOGRAPHICLIB_GEOID_PATH", folder.path().c_str(), 1);
+  const auto geoid = Geoid::load("slope");
+  unsetenv("GEOGRAPHICLIB_GEOID_PATH");
+  ASSERT_TRUE(geoid);
+  EXPECT_THAT(MapCrs::of({}, place, *geoid).error().message,
+              AllOf(HasSubstr("gps.geoid"), HasSubstr("--geoid")));
 }
 
 }  // namespace

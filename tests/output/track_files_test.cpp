@@ -95,5 +95,13 @@ TEST_F(TrackFiles, NothingPlacedIsAnEmptyFile) {
   EXPECT_TRUE(nlohmann::json::parse(to_geojson(nodes_, {}, origin_))["features"].empty());
 }
 
+TEST_F(TrackFiles, HeightsAboveSeaLevelAreNamedInGpxAndLeftOutOfGeoJson) {
+  const std::string gpx = to_gpx(nodes_, T_enu_node_, origin_, std::nullopt, true).value();
+  EXPECT_THAT(gpx, HasSubstr("Heights: metres above mean sea level as GPS gave them."));
+  const auto collection = nlohmann::json::parse(to_geojson(nodes_, T_enu_node_, origin_, true));
+  EXPECT_EQ(collection["features"][0]["geometry"]["coordinates"].size(), 2u);
+  EXPECT_EQ(collection["features"][2]["geometry"]["coordinates"][1].size(), 2u);
+}
+
 }  // namespace
 }  // namespace fleetmap::output

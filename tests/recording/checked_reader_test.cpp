@@ -84,7 +84,8 @@ TEST(CheckedReader, AScanWithoutReturnsIsLeftOut) {
   scan.origin_points = 7;
   EXPECT_TRUE(checks.admit_points(scan, "a scan"));
   EXPECT_EQ(checks.counters().microsecond_scans + checks.counters().foreign_clock_scans, 0u);
-  scan.times_in_microseconds = scan.foreign_clock = true;
+  scan.time_unit = ros_codec::TimeUnit::kMicroseconds;
+  scan.foreign_clock = true;
   EXPECT_TRUE(checks.admit_points(scan, "a scan"));
   EXPECT_EQ(checks.counters().non_finite_points, 10u);
   EXPECT_EQ(checks.counters().origin_points, 14u);

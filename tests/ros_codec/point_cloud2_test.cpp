@@ -195,7 +195,7 @@ TEST(PointCloud2, AForeignClockIsCountedFromItsFirstPoint) {
 TEST(PointCloud2, TimesThatCannotBeTrueAreNoTimes) {
   EXPECT_FALSE(read(with_time("time", kFloat32, {0, 0, 0})).scan.has_time);
   EXPECT_FALSE(read(with_time("time", kFloat32, {0, std::nan(""), 0.1})).scan.has_time);
-  EXPECT_FALSE(read(with_time("time", kFloat32, {0, 50, 1000})).scan.has_time);
+  EXPECT_FALSE(read(with_time("time", kFloat32, {0, 50, 2000})).scan.has_time);
   EXPECT_FALSE(read(with_time("timestamp", kFloat32, {1.7e9, 1.7e9, 1.7001e9})).scan.has_time);
 }
 
@@ -289,6 +289,37 @@ TEST(PointCloud2, TruncationsAndDamageNeverCrash) {
     EXPECT_LE(decoded->scan.points.size(), whole.size() / 4);
   }
   EXPECT_GT(accepted, 1000u);
+}
+
+TEST(PointCloud2, FloatTimesOfASweepInOneUnitAloneAreConverted) {
+  using enum TimeUnit;
+  for (const auto& [unit, scale] : {std::pair{kAsDefined, 1.0}, std::pair{kMilliseconds, 1e3},
+                                    std::pair{kMicroseconds, 1e6}, std::pair{kNanoseconds, 1e9}}) {
+    for (const std::uint8_t type : {std::uint8_t{kFloat32}, std::uint8_t{kFloat64}}) {
+      auto columns = xyz();
+      columns.push_back({"time", type, 12, {0.0, 0.05 * scale, 0.1 * scale}});
+      const auto decoded = decode_scan(bus::to_cdr(message(columns, 20)));
+      ASSERT_TRUE(decoded);
+      EXPECT_EQ(decoded->time_unit, unit) << scale;
+      ASSERT_TRUE(decoded->scan.has_time);
+      EXPECT_NEAR(decoded->scan.points[1].time, 0.05, 1e-6);
+      EXPECT_EQ(finding_of(unit).empty(), unit == kAsDefined);
+    }
+  }
+}
+
+TEST(PointCloud2, FloatTimesOfASweepInNoUnitAreNotUsed) {
+  for (const auto& [middle, last] : {std::pair{1.5, 3.0}, std::pair{0.05, 100.0}, std::pair{1e9, 3e9}}) {
+    std::vector<Column> columns = xyz();
+    for (Column& column : columns) column.values.assign(9, column.values[1]);
+    columns.push_back({"timestamp", kFloat64, 12, std::vector<double>(9, middle)});
+    columns.back().values.front() = 0.0;
+    columns.back().values.back() = last;
+    const auto decoded = decode_scan(bus::to_cdr(message(columns, 20)));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->time_unit, TimeUnit::kUnclear) << last;
+    EXPECT_FALSE(decoded->scan.has_time) << "of 0.05 and 100 the last is one stray point";
+  }
 }
 
 }  // namespace

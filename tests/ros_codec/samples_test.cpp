@@ -130,5 +130,18 @@ TEST(BatteryMessage, RoundTripAndLimits) {
               HasSubstr("percentage"));
 }
 
+TEST(FixMessage, HeightsAboveSeaLevelAreMarkedAndOtherBytesStay) {
+  sensor::Fix fix{.stamp = stamp_from_ns(5), .position = geo_point_from_degrees(49.0, 8.0, 112.0)};
+  EXPECT_FALSE(decode<sensor::Fix>(encode(fix))->above_sea_level);
+  const Bytes ellipsoidal = encode(fix);
+  fix.above_sea_level = true;
+  const Bytes marked = encode(fix);
+  EXPECT_TRUE(decode<sensor::Fix>(marked)->above_sea_level);
+  ASSERT_EQ(marked.size(), ellipsoidal.size());
+  std::size_t differing = 0;
+  for (std::size_t k = 0; k < marked.size(); ++k) differing += marked[k] != ellipsoidal[k] ? 1 : 0;
+  EXPECT_EQ(differing, 1u);
+}
+
 }  // namespace
 }  // namespace fleetmap::ros_codec

@@ -64,8 +64,9 @@ inline Bytes system_time(std::uint64_t unix_us, std::uint32_t boot_ms) {
   return MavlinkPayload().add(unix_us).add(boot_ms).frame(sensor::kMavlinkSystemTime);
 }
 
-/// 39 N 3 W, 650 m above the ellipsoid and 600 m above the sea; standard deviations of 0.5 and 0.9 m.
-inline Bytes gps_raw_int(std::uint64_t microseconds, int fix_type) {
+/// 39 N 3 W, `above_ellipsoid` mm above the ellipsoid (0: not stated) and 600 m above the sea; standard
+/// deviations of 0.5 and 0.9 m.
+inline Bytes gps_raw_int(std::uint64_t microseconds, int fix_type, std::int32_t above_ellipsoid = 650'000) {
   return MavlinkPayload()
       .add(microseconds)
       .add(std::int32_t{390000000})
@@ -74,7 +75,7 @@ inline Bytes gps_raw_int(std::uint64_t microseconds, int fix_type) {
       .add(std::uint64_t{0})
       .add(static_cast<std::uint8_t>(fix_type))
       .add(std::uint8_t{12})
-      .add(std::int32_t{650000})
+      .add(above_ellipsoid)
       .add(std::uint32_t{500})
       .add(std::uint32_t{900})
       .frame(sensor::kMavlinkGpsRawInt);

@@ -15,6 +15,7 @@
 #include "fleetmap/agent/odometry_frame.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/registration_recorder.hpp"
+#include "fleetmap/agent/sensor_facts.hpp"
 #include "fleetmap/agent/store_failures.hpp"
 #include "fleetmap/agent/track_recorder.hpp"
 #include "fleetmap/core/quantile_sketch.hpp"
@@ -125,7 +126,7 @@ class Agent {
   bool begin_session(const char* why);
   bool numbers_run_out() const;
   /// With the first scan: by then the mount is decided.
-  void keep_lidar_mount();
+  void keep_facts();
   void navigate();
   /// Handles an order from a button on the robot.
   void on_local_hold(const Bytes& cdr);
@@ -161,7 +162,7 @@ class Agent {
   store::Store store_;
   store::Sessions sessions_;
   std::uint16_t session_;
-  bool lidar_mount_kept_ = false;
+  SensorFacts facts_;
   bool rest_frozen_for_meeting_ = false;
   bool own_item_contested_ = true;  ///< perhaps: also before the start
   TrackRecorder tracks_;

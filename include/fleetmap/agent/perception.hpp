@@ -17,6 +17,7 @@
 #include "fleetmap/geometry/global_pose.hpp"
 #include "fleetmap/localization/ekf.hpp"
 #include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "fleetmap/sensor/sensor_health.hpp"
 #include "fleetmap/sensor/turn_direction.hpp"
@@ -92,7 +93,7 @@ class Perception {
     std::vector<sensor::Wheel> wheel;
     std::optional<Eigen::Quaterniond> q_base_imu;  ///< if it was decided since the scan before
     Result<odometry::OdometryUpdate> update = failure("not run");
-    bool times_in_microseconds = false;
+    ros_codec::TimeUnit point_times = ros_codec::TimeUnit::kAsDefined;
     std::optional<std::pair<Stamp, Duration>> sweep;  ///< stamp and sweep of a decoded scan
     std::optional<Eigen::Vector3d> ground;            ///< its normal in base_link
     std::optional<std::string> turns_finding;         ///< when the direction of turns is decided

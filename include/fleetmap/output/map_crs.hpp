@@ -33,15 +33,22 @@ Result<CrsRequest> parse_crs(std::string_view text);
 
 /// Place of the frame of a map.
 struct MapPlace {
-  GeoPoint origin;             ///< of ENU
-  bool georeferenced = false;  ///< otherwise `origin` says nothing
+  GeoPoint origin;               ///< of ENU
+  bool georeferenced = false;    ///< otherwise `origin` says nothing
+  bool above_sea_level = false;  ///< heights, as GPS gave them (has_sea_level_heights)
 };
+
+/// Why a geoid is refused for a map whose heights GPS gave above mean sea level.
+inline constexpr const char* kNoGeoid =
+    "heights of this map are above mean sea level already, as GPS gave them (gps.geoid was not set): no "
+    "--geoid";
 
 /// Coordinate reference system of an exported map.
 class MapCrs {
  public:
   /// Heights are above the ellipsoid, or above `geoid`. Fails for a zone if the map is not georeferenced, is
-  /// too far from it, or there is none; and for a geoid with CrsRequest::Kind::enu.
+  /// too far from it, or there is none; and for a geoid with CrsRequest::Kind::enu, or if heights are above
+  /// sea level already.
   static Result<MapCrs> of(const CrsRequest& request, const MapPlace& place, std::optional<Geoid> geoid);
 
   /// "EPSG:32630", or "enu".

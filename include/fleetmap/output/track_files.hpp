@@ -17,12 +17,14 @@ namespace fleetmap::output {
 /// east-north-up frame at `origin`; nodes without one are left out.
 
 /// GPX 1.1, with a waypoint for each node that has its name. Heights are above `geoid`, as GPX's readers take
-/// them, else above the ellipsoid; the file states which. Fails where the geoid cannot be read.
+/// them, else as they are: above the ellipsoid, or `above_sea_level` as GPS gave them; the file states which.
+/// Fails where the geoid cannot be read, and for one if they are above sea level.
 Result<std::string> to_gpx(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
-                           const GeoPoint& origin, const std::optional<Geoid>& geoid);
-/// GeoJSON (RFC 7946, heights above the ellipsoid): a LineString for each track, and a Point for each node
-/// with its name, robot and time.
+                           const GeoPoint& origin, const std::optional<Geoid>& geoid,
+                           bool above_sea_level = false);
+/// GeoJSON (RFC 7946: heights are above the ellipsoid, so there are none if they are `above_sea_level`): a
+/// LineString for each track, and a Point for each node with its name, robot and time.
 std::string to_geojson(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
-                       const GeoPoint& origin);
+                       const GeoPoint& origin, bool above_sea_level = false);
 
 }  // namespace fleetmap::output

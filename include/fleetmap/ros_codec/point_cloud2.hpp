@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "fleetmap/core/bytes.hpp"
@@ -11,6 +13,17 @@
 
 namespace fleetmap::ros_codec {
 
+/// The unit of a scan's point times. The field's type defines it: integers are ns, floats s.
+enum class TimeUnit : std::uint8_t {
+  kAsDefined,
+  kMicroseconds,  ///< a sweep takes 5 ms to 1 s in this unit alone; converted, like the next two
+  kMilliseconds,
+  kNanoseconds,
+  kUnclear  ///< of floats: a sweep in none; the scan has no point times
+};
+/// The finding, with its remedy; empty for kAsDefined.
+std::string finding_of(TimeUnit unit);
+
 /// A decoded message of points and what was left out of it.
 struct DecodedScan {
   sensor::Scan scan;
@@ -20,8 +33,7 @@ struct DecodedScan {
   /// Point times were absolute in a clock more than 10 s away from the header's; they were counted from the
   /// earliest point instead.
   bool foreign_clock = false;
-  /// Integer point times were too short a sweep in nanoseconds, and were taken for microseconds.
-  bool times_in_microseconds = false;
+  TimeUnit time_unit = TimeUnit::kAsDefined;
 };
 
 /// PointCloud2 with x, y, z, intensity (float32), ring (uint16) if there, time (float32, s after the stamp)

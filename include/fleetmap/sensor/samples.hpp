@@ -25,7 +25,8 @@ struct Imu {
 struct Fix {
   Stamp stamp;
   GeoPoint position;
-  bool valid = true;  ///< the receiver reports a fix
+  bool valid = true;             ///< the receiver reports a fix
+  bool above_sea_level = false;  ///< the altitude is above mean sea level instead of the ellipsoid
   /// ENU, m^2, as reported: may be zero, NaN or absurd; the EKF checks it.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };

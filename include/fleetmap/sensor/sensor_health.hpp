@@ -13,6 +13,7 @@
 #include "fleetmap/sensor/gps_agreement.hpp"
 #include "fleetmap/sensor/motion_agreement.hpp"
 #include "fleetmap/sensor/samples.hpp"
+#include "fleetmap/sensor/scan.hpp"
 
 namespace fleetmap::sensor {
 
@@ -25,6 +26,14 @@ class SensorHealth {
   bool check(Imu& imu);
   bool check(Wheel& wheel);
   bool check(Fix& fix);
+  /// A sample that is held back, since its clock is unclear: its values are not checked, and its sensor is
+  /// not silent.
+  void hold(const Scan&) { last_scan_.reset(); }
+  void hold(const Imu&) { last_imu_.reset(); }
+  void hold(const Wheel& wheel) { silences_.add_wheel(wheel.stamp); }
+  void hold(const Fix& fix) {
+    if (fix.valid) silences_.add_fix(fix.stamp);
+  }
   /// base_link in the odometry's frame at a scan, if the scan fitted the map; otherwise empty. Gyro, wheels
   /// and GPS are compared with it.
   void check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base);
@@ -61,6 +70,8 @@ class SensorHealth {
   std::vector<std::string> alarms() const;
   /// Gaps of fixes and wheels until now, which are no finding unless they are long.
   std::vector<std::string> gaps() const { return silences_.notes(); }
+  /// A fix had its altitude above mean sea level.
+  bool heights_above_sea_level() const { return above_sea_level_; }
   /// Samples that check() refused.
   std::uint64_t refused() const { return refused_; }
   /// By the time between scans; an estimate.
@@ -104,6 +115,7 @@ class SensorHealth {
   std::vector<std::string> findings_, notes_;
   int impossible_rates_ = 0;  ///< in a row
   bool speed_from_pose_ = false;
+  bool above_sea_level_ = false;
   bool no_altitude_ = false, no_place_ = false, imu_gaps_reported_ = false;
   bool scans_missing_ = false;
 };

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "fleetmap/ros_codec/samples.hpp"
+#include "fleetmap/sensor/ellipsoidal_height.hpp"
 #include "fleetmap/sensor/gpsd_fixes.hpp"
 #include "fleetmap/sensor/mavlink_sensors.hpp"
 #include "fleetmap/sensor/nmea_fixes.hpp"
@@ -33,20 +35,23 @@ class CountLog {
 };
 
 constexpr const char* kAboveSea =
-    "fixes without an altitude above the ellipsoid; their height above the sea is used, so set all robots "
-    "alike";
+    "fixes whose height is above mean sea level, not above the ellipsoid; gps.geoid: egm2008-5 converts them";
 
 /// The topics that samples go to.
 struct Topics {
   bus::Bus& bus;
   bus::Topic imu, fix;
+  std::optional<Geoid> geoid;
 
   void publish(const sensor::DeviceSamples& samples, bool with_imu = true, bool with_fixes = true) const {
     for (const sensor::Imu& sample : samples.imu) {
       if (with_imu) bus.publish(imu, ros_codec::encode(sample));
     }
-    for (const sensor::Fix& sample : samples.fixes) {
-      if (with_fixes) bus.publish(fix, ros_codec::encode(sample));
+    for (sensor::Fix sample : samples.fixes) {
+      if (!with_fixes) continue;
+      if (const Status converted = geoid ? sensor::make_ellipsoidal(sample, *geoid) : Status{}; !converted)
+        spdlog::error("{}", converted.error().message);
+      bus.publish(fix, ros_codec::encode(sample));
     }
   }
 };
@@ -59,7 +64,7 @@ std::unique_ptr<DeviceInput> nmea_input(const agent::SerialPort& serial, const T
         fixes.counters().wrong_checksums);
     log("sentences that are cut", fixes.counters().cut);
     log("sentences with a malformed field", fixes.counters().malformed);
-    log(kAboveSea, fixes.above_sea_level());
+    if (!topics.geoid) log(kAboveSea, fixes.above_sea_level());
   };
   return std::make_unique<DeviceInput>(serial, DeviceInput::Handlers{.on_bytes = std::move(on_bytes)});
 }
@@ -70,7 +75,7 @@ std::unique_ptr<DeviceInput> gpsd_input(const agent::TcpServer& server, const To
                       ByteView bytes, Stamp) mutable {
     topics.publish(fixes->add(bytes));
     log("lines that are no reports of gpsd", fixes->counters().malformed);
-    log(kAboveSea, fixes->counters().above_sea_level);
+    if (!topics.geoid) log(kAboveSea, fixes->counters().above_sea_level);
     for (const std::string& error : fixes->take_errors()) log("gpsd reports: " + error, 1);
   };
   auto greeting = [fixes] {
@@ -94,7 +99,7 @@ std::unique_ptr<DeviceInput> mavlink_input(const agent::DeviceConfig& config, co
     log("messages without a usable value", counters.unusable);
     log("messages with a time of GPS before the first SYSTEM_TIME", counters.unplaced);
     log("the autopilot was switched on again", counters.restarts);
-    if (config.mavlink_gps) log(kAboveSea, counters.above_sea_level);
+    if (config.mavlink_gps && !topics.geoid) log(kAboveSea, counters.above_sea_level);
   };
   auto request = [sensors](Stamp now) { return sensors->clock_request(now); };
   return std::make_unique<DeviceInput>(
@@ -112,7 +117,7 @@ std::vector<std::unique_ptr<DeviceInput>> publish_devices(const agent::Perceptio
   const auto named = [&](const std::string& name) {
     return *std::ranges::find(all, name, &bus::Topic::name);
   };
-  const Topics topics{bus, named(config.topics.imu), named(config.topics.fix)};
+  const Topics topics{bus, named(config.topics.imu), named(config.topics.fix), devices.geoid};
   bus.advertise(topics.imu);
   bus.advertise(topics.fix);
   if (devices.nmea) inputs.push_back(nmea_input(*devices.nmea, topics));

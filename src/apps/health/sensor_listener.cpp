@@ -62,6 +62,7 @@ std::vector<std::string> SensorListener::silent_topics() const {
          "gps.use: false");
   expect(config_.odometry_uses_wheel, streams_.wheels(), config_.topics.wheel, "topics.wheel",
          "nav_msgs/msg/Odometry", "odometry.use_wheel: false");
+  if (auto blind = streams_.fixes_without_place(config_.uses_gps)) silent.push_back(std::move(*blind));
   return silent;
 }
 
@@ -80,6 +81,7 @@ void SensorListener::add(Result<T> decoded, const Bytes& cdr, const std::string&
   recording::Sample sample(std::move(*decoded));
   streams_.add(sample);
   const auto source = static_cast<sensor::Source>(sample.index());
+  if (source == sensor::Source::kGps && !config_.uses_gps) return;
   if (!place(source, ros_codec::frame_id_of(cdr).value_or(""))) return;
   if (check_.admit(sample, bus_.now())) odometry_.add(std::move(sample));
 }

@@ -11,6 +11,7 @@
 #include "fleetmap/output/lidar_mount.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 #include "fleetmap/store/submap_loader.hpp"
 #include "merged_store.hpp"
 
@@ -72,7 +73,7 @@ Result<DayChanges> changes_between(const fs::path& first, const fs::path& second
   auto changes = change::find_changes(observed(*store, merged->placement, before, after, *lidar_before),
                                       observed(*store, merged->placement, after, before, *lidar_after), {});
   if (!changes) return failure(first.string() + " and " + second.string() + ": " + changes.error().message);
-  DayChanges compared{std::move(*changes), pair.used, std::nullopt};
+  DayChanges compared{std::move(*changes), pair.used, std::nullopt, output::has_sea_level_heights(*store)};
   if (output::map_parts(output::nodes_of(*store), merged->placement).main.georeferenced)
     compared.origin = merged->recipe.origin;
   return compared;

@@ -16,6 +16,7 @@ struct DayChanges {
   change::Changes changes;
   std::size_t alignments = 0;      ///< between the two days, that place them
   std::optional<GeoPoint> origin;  ///< of ENU, if the maps lie on Earth
+  bool above_sea_level = false;    ///< heights of a day, as GPS gave them
 };
 
 /// Aligns the stores of two days and compares their maps. Fails for days that cannot be aligned, or that

@@ -12,8 +12,9 @@ namespace fleetmap::apps {
 namespace {
 
 /// Says what the coordinates of a file in the map's own frame are, as maps' files do.
-std::vector<std::string> frame_comments(const std::optional<GeoPoint>& origin) {
-  const output::MapPlace place{origin.value_or(GeoPoint{}), origin.has_value()};
+std::vector<std::string> frame_comments(const DayChanges& compared) {
+  const std::optional<GeoPoint>& origin = compared.origin;
+  const output::MapPlace place{origin.value_or(GeoPoint{}), origin.has_value(), compared.above_sea_level};
   const auto crs = output::MapCrs::of({output::CrsRequest::Kind::enu, {}}, place, std::nullopt);
   if (!crs) return {};
   return {crs->text(), "CRS: " + crs->wkt()};
@@ -26,8 +27,7 @@ CommandResult<ExitCode> compare_days(const DiffOptions& options, std::ostream& o
   if (!compared) return exit_with(kFailed, compared.error());
   print_changes(out, *compared);
   if (!options.ply.empty()) {
-    const Status written =
-        change::write_coloured(options.ply, compared->changes, frame_comments(compared->origin));
+    const Status written = change::write_coloured(options.ply, compared->changes, frame_comments(*compared));
     if (!written) return exit_with(kFailed, written.error());
   }
   if (options.geojson.empty()) return kDone;
@@ -35,8 +35,8 @@ CommandResult<ExitCode> compare_days(const DiffOptions& options, std::ostream& o
     return exit_with(
         kFailed, {options.geojson + ": neither day has GPS, so nobody knows where on Earth the changes are"});
   }
-  const Status written =
-      write_whole_file(options.geojson, change::to_geojson(compared->changes, *compared->origin));
+  const Status written = write_whole_file(
+      options.geojson, change::to_geojson(compared->changes, *compared->origin, compared->above_sea_level));
   return written ? CommandResult<ExitCode>(kDone) : exit_with(kFailed, written.error());
 }
 

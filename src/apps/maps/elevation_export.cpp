@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "fleetmap/output/elevation_map.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 #include "las_export.hpp"
 #include "version.hpp"
 
@@ -10,7 +11,9 @@ namespace fleetmap::apps {
 
 Status export_elevation(StoredMap& map, const MapOptions& options, std::ostream& out) {
   const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
-  const auto crs = crs_of(options.las, {map.recipe.origin, parts.main.georeferenced}, options.store);
+  const auto crs = crs_of(
+      options.las, {map.recipe.origin, parts.main.georeferenced, output::has_sea_level_heights(map.store)},
+      options.store);
   if (!crs) return tl::unexpected(crs.error());
   output::ElevationConfig config;
   if (options.cell_m) config.cell_m = *options.cell_m;

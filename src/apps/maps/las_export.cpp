@@ -9,6 +9,7 @@
 
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/las_map.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 #include "version.hpp"
 
 namespace fleetmap::apps {
@@ -63,7 +64,9 @@ bool wants_las(const std::string& path, const LasOptions& options) {
 Status export_las(StoredMap& map, const std::string& store, const std::string& path,
                   const LasOptions& options, std::ostream& out) {
   const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
-  const auto crs = crs_of(options, {map.recipe.origin, parts.main.georeferenced}, store);
+  const auto crs =
+      crs_of(options, {map.recipe.origin, parts.main.georeferenced, output::has_sea_level_heights(map.store)},
+             store);
   if (!crs) return tl::unexpected(crs.error());
   const output::LasMapConfig config{path, options.tile_m, std::string("fleetmap ") + kVersion};
   const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);

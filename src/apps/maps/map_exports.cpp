@@ -9,6 +9,7 @@
 #include "fleetmap/output/map_comments.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 #include "fleetmap/output/track_files.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
 #include "options.hpp"
@@ -39,6 +40,7 @@ Result<std::string> export_tracks(const StoredMap& map, const std::string& store
   if (!main.georeferenced)
     return failure(store +
                    ": no node of its map has GPS, so that nobody knows where on Earth its tracks are");
+  const bool above_sea = output::has_sea_level_heights(map.store);
   std::optional<Geoid> geoid;
   if (geoid_name) {
     auto loaded = Geoid::load(*geoid_name);
@@ -47,9 +49,9 @@ Result<std::string> export_tracks(const StoredMap& map, const std::string& store
   }
   const Result<std::string> text =
       out.extension() == ".gpx"
-          ? output::to_gpx(nodes, main.T_map_node, map.recipe.origin, geoid)
-          : Result<std::string>(output::to_geojson(nodes, main.T_map_node, map.recipe.origin));
-  if (!text) return text;
+          ? output::to_gpx(nodes, main.T_map_node, map.recipe.origin, geoid, above_sea)
+          : Result<std::string>(output::to_geojson(nodes, main.T_map_node, map.recipe.origin, above_sea));
+  if (!text) return failure(store + ": " + text.error().message);
   if (const Status written = write_whole_file(out, *text); !written) return tl::unexpected(written.error());
   return out.string() + ": " + std::to_string(main.T_map_node.size()) + " nodes";
 }

@@ -10,6 +10,7 @@
 #include "fleetmap/agent/item_keys.hpp"
 #include "fleetmap/core/paths.hpp"
 #include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 #include "fleetmap/trust/credentials.hpp"
 #include "stored_map.hpp"
 
@@ -167,6 +168,9 @@ Status add_all(const std::vector<fs::path>& files, const exchange::ItemAuthentic
     if (const Status meant = check_store(file); !meant) return meant;
     auto store = store::Store::open_read_only(file);
     if (!store) return tl::unexpected(store.error());
+    if (output::has_sea_level_heights(*store)) {
+      if (const Status kept = output::keep_sea_level_heights(into); !kept) return kept;
+    }
     auto added = exchange::add_items(into, *store, keys);
     if (!added) return tl::unexpected(added.error());
     merged.unions.push_back(std::move(*added));

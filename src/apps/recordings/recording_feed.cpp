@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <utility>
 
 namespace fleetmap::apps {
@@ -28,7 +29,8 @@ Status RecordingFeed::advance(Member& member) {
 
 Result<std::unique_ptr<RecordingFeed>> RecordingFeed::create(
     const std::vector<config::RecordingConfig>& recordings,
-    const std::vector<recording::LogClock>& log_clocks, const std::optional<GeoPoint>& site_origin) {
+    const std::vector<recording::LogClock>& log_clocks, const std::optional<GeoPoint>& site_origin,
+    const std::vector<bool>& uses_gps) {
   std::unique_ptr<RecordingFeed> feed(new RecordingFeed);
   for (const config::RecordingConfig& source : recordings) {
     auto reader = recording::open(source.path, source.reader);
@@ -41,8 +43,10 @@ Result<std::unique_ptr<RecordingFeed>> RecordingFeed::create(
     feed->members_.push_back(std::move(member));
   }
   feed->origin_ = site_origin;
-  if (!site_origin) {
-    if (const Status found = feed->find_origin(recordings.front()); !found)
+  const auto first = std::ranges::find(uses_gps, true) - uses_gps.begin();
+  if (!site_origin && (uses_gps.empty() || first < std::ssize(recordings))) {
+    const std::size_t robot = uses_gps.empty() ? 0 : static_cast<std::size_t>(first);
+    if (const Status found = feed->find_origin(recordings[robot]); !found)
       return tl::unexpected(found.error());
   }
   feed->set_shifts(recordings);

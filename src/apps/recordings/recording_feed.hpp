@@ -18,7 +18,8 @@ class RecordingFeed final : public FleetFeed {
   /// that the fixes after it bear out.
   static Result<std::unique_ptr<RecordingFeed>> create(const std::vector<config::RecordingConfig>& recordings,
                                                        const std::vector<recording::LogClock>& log_clocks,
-                                                       const std::optional<GeoPoint>& site_origin);
+                                                       const std::optional<GeoPoint>& site_origin,
+                                                       const std::vector<bool>& uses_gps = {});
 
   Stamp start() const override { return start_; }
   std::optional<GeoPoint> origin() const override { return origin_; }

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "odometry_run.hpp"
@@ -44,6 +45,8 @@ CommandResult<ExitCode> inspect_recording(const RecordingOptions& options, std::
   std::ranges::copy(done->findings, std::back_inserter(findings));
   std::ranges::move(done->failures(streams.scans()), std::back_inserter(findings));
   std::ranges::move(unread_parts(input->reader->counters()), std::back_inserter(findings));
+  if (auto blind = streams.fixes_without_place(input->config.agent.perception.uses_gps))
+    findings.push_back(std::move(*blind));
   streams.print(out);
   for (const std::string& mount : input->prepared.mounts) out << mount << '\n';
   for (const auto& [name, count] : input->reader->counters().named()) {

@@ -26,7 +26,7 @@ struct Check {
 }  // namespace
 
 SampleCheck::SampleCheck(const recording::LogClock& log_clock, const agent::PerceptionConfig& config)
-    : times_(log_clock) {
+    : times_(log_clock), uses_gps_(config.uses_gps) {
   set_mounts(config);
   if (config.gyro_in_degrees) health_.expect_degrees(*config.gyro_in_degrees);
 }
@@ -42,10 +42,13 @@ void SampleCheck::add_motion(const odometry::OdometryUpdate& update) {
 
 bool SampleCheck::admit(recording::Sample& sample, std::optional<Stamp> recorded) {
   const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
+  if (source == sensor::Source::kGps && !uses_gps_) return false;
   now_ = std::max(now_, times_.of(sample, recorded));
   clocks_.add(source, recording::stamp_of(sample), now_);
   std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
-  return !clocks_.unclear(source) && std::visit(Check{health_, T_base_lidar_}, sample);
+  if (!clocks_.unclear(source)) return std::visit(Check{health_, T_base_lidar_}, sample);
+  std::visit([&](const auto& held) { health_.hold(held); }, sample);
+  return false;
 }
 
 std::vector<std::string> SampleCheck::take_warnings() {

@@ -21,7 +21,8 @@ class SampleCheck {
 
   /// Mounts that were decided since.
   void set_mounts(const agent::PerceptionConfig& config);
-  /// Corrects the sample. False if it must not be used: its clock is undecided or its values are unsound.
+  /// Corrects the sample. False if it must not be used: its clock is undecided, its values are
+  /// unsound, or it is a fix and the robot does not use GPS (gps.use).
   /// `recorded` as Reader::recorded() has it.
   bool admit(recording::Sample& sample, std::optional<Stamp> recorded);
   /// Compares the other sensors with the odometry's motion.
@@ -34,6 +35,7 @@ class SampleCheck {
 
  private:
   recording::PlayTimes times_;
+  bool uses_gps_;
   Pose T_base_lidar_;
   sensor::ClockOffsets clocks_;
   sensor::SensorHealth health_;

@@ -14,9 +14,18 @@ void StreamSummary::add(const recording::Sample& sample) {
   const Stamp stamp = recording::stamp_of(sample);
   Stream& stream = streams_.at(sample.index());
   ++stream.count;
+  if (const auto* fix = std::get_if<sensor::Fix>(&sample); fix != nullptr && fix->valid) ++places_;
   if (!stream.first) stream.first = stamp;
   if (stream.last) stream.longest_gap = std::max(stream.longest_gap, stamp - *stream.last);
   stream.last = stamp;
+}
+
+std::optional<std::string> StreamSummary::fixes_without_place(bool uses_gps) const {
+  if (!uses_gps || fixes() == 0 || places_ > 0) return std::nullopt;
+  return "GPS: " + std::to_string(fixes()) +
+         " fixes came, all without a position (status -1): check the antenna and its cable, and wait under "
+         "open "
+         "sky until the receiver has a position. A robot without GPS has gps.use: false";
 }
 
 void StreamSummary::print(std::ostream& out) const {

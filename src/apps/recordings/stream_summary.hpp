@@ -14,6 +14,8 @@ namespace fleetmap::apps {
 class StreamSummary {
  public:
   void add(const recording::Sample& sample);
+  /// That fixes came, and none of them with a position, if that is so; empty as well if GPS is not used.
+  std::optional<std::string> fixes_without_place(bool uses_gps) const;
   /// A line a sensor.
   void print(std::ostream& out) const;
   std::size_t scans() const { return streams_.front().count; }
@@ -27,6 +29,7 @@ class StreamSummary {
     std::optional<Stamp> first, last;
     Duration longest_gap = Duration::zero();
   };
+  std::size_t places_ = 0;  ///< fixes with a position
   std::array<Stream, std::variant_size_v<recording::Sample>> streams_;
 };
 

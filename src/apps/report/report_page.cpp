@@ -117,9 +117,10 @@ void show_place(const ReportFacts& facts, eval::HtmlPage& page) {
   page.heading("Is it georeferenced?");
   if (facts.report.contains("origin")) {
     const json& origin = facts.report["origin"];
-    page.paragraph("Origin of east, north and up: latitude " + origin["latitude_deg"].dump() +
-                   "°, longitude " + origin["longitude_deg"].dump() + "°, " +
-                   short_number(origin["altitude_m"].get<double>(), 6) + " m above the WGS 84 ellipsoid.");
+    page.paragraph(
+        "Origin of east, north and up: latitude " + origin["latitude_deg"].dump() + "°, longitude " +
+        origin["longitude_deg"].dump() + "°, " + short_number(origin["altitude_m"].get<double>(), 6) +
+        " m above the WGS 84 ellipsoid, unless a robot's findings name heights above mean sea level.");
   }
   eval::Table rows{{"robot", "georeferenced", "GPS fixes received", "used", "why not"}};
   for (const auto& [robot, agent] : agents_of(facts).items()) {

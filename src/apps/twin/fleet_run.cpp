@@ -70,14 +70,16 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
   }
   std::vector<config::RecordingConfig> recordings;
   std::vector<recording::LogClock> log_clocks;
+  std::vector<bool> uses_gps;
   for (auto& member : config.members) {
     recordings.push_back(*member.recording);
     const auto prepared = prepare(member.recording->path, member.recording->reader, member.agent.perception);
     if (!prepared) return tl::unexpected(prepared.error());
     log_clocks.push_back(prepared->log_clock);
+    uses_gps.push_back(member.agent.perception.uses_gps);
     log_preparation(*prepared, member.agent.id.str());
   }
-  return RecordingFeed::create(recordings, log_clocks, config.members.front().agent.site_origin);
+  return RecordingFeed::create(recordings, log_clocks, config.members.front().agent.site_origin, uses_gps);
 }
 
 /// Writes the true trajectory of each robot of the twin and returns them; none from recordings.

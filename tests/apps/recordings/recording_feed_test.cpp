@@ -98,5 +98,15 @@ TEST_F(RecordingFeedTest, ARecordingWithoutASampleIsRefused) {
   EXPECT_THAT(feed.error().message, HasSubstr("r1"));
 }
 
+TEST_F(RecordingFeedTest, ARobotThatDoesNotUseGpsGivesNoOrigin) {
+  const std::vector days{bag("r1", kMorning, {39, 39, 39}), bag("r2", kMorning, {41, 41, 41})};
+  const auto second = RecordingFeed::create(days, {{}, {}}, {}, {false, true});
+  ASSERT_TRUE(second);
+  EXPECT_LT(haversine_distance(*(*second)->origin(), place(41)), 1.0);
+  const auto none = RecordingFeed::create(days, {{}, {}}, {}, {false, false});
+  ASSERT_TRUE(none);
+  EXPECT_FALSE((*none)->origin());
+}
+
 }  // namespace
 }  // namespace fleetmap::apps

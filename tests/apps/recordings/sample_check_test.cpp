@@ -23,8 +23,10 @@ struct CheckedSamples {
   Stamp last_fix;
   std::vector<std::string> news;
 };
-CheckedSamples checked_samples(Duration gps_ahead, double force_unit) {
-  SampleCheck check({}, {});
+CheckedSamples checked_samples(Duration gps_ahead, double force_unit, bool uses_gps = true) {
+  agent::PerceptionConfig config;
+  config.uses_gps = uses_gps;
+  SampleCheck check({}, config);
   CheckedSamples run;
   const auto add = [&](recording::Sample sample, Stamp now) {
     const bool admitted = check.admit(sample, now);
@@ -59,6 +61,12 @@ TEST(SampleCheck, FindsWhatIsWrongWithClocksAndValues) {
   EXPECT_THAT(odd.news, Contains(HasSubstr("18")));
   EXPECT_GT(odd.admitted_fixes, 200u);
   EXPECT_NEAR(to_seconds(odd.last_fix - kStart), 59.8, 0.3) << "corrected";
+}
+
+TEST(SampleCheck, FixesThatAreNotUsedAreNotChecked) {
+  const CheckedSamples without = checked_samples(std::chrono::seconds(18), 1.0, false);
+  EXPECT_THAT(without.news, IsEmpty());
+  EXPECT_EQ(without.admitted_fixes, 0u);
 }
 
 }  // namespace

@@ -26,5 +26,17 @@ TEST(StreamSummary, CountsRatesAndGapsOfEachSensor) {
   EXPECT_THAT(text.str(), HasSubstr("GPS            0  none\n"));
 }
 
+TEST(StreamSummary, FixesWithoutAPositionAreToldFromNoFix) {
+  StreamSummary streams;
+  EXPECT_FALSE(streams.fixes_without_place(true)) << "none came";
+  streams.add(sensor::Fix{.stamp = {}, .position = {}, .valid = false});
+  streams.add(sensor::Fix{.stamp = {}, .position = {}, .valid = false});
+  EXPECT_THAT(streams.fixes_without_place(true).value_or(""),
+              HasSubstr("2 fixes came, all without a position (status -1): check the antenna"));
+  EXPECT_FALSE(streams.fixes_without_place(false)) << "gps.use: false";
+  streams.add(sensor::Fix{});
+  EXPECT_FALSE(streams.fixes_without_place(true));
+}
+
 }  // namespace
 }  // namespace fleetmap::apps
