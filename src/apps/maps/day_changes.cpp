@@ -8,6 +8,7 @@
 
 #include "fleetmap/change/change_files.hpp"
 #include "fleetmap/core/work_folder.hpp"
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/output/lidar_mount.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/placed_store.hpp"
@@ -73,7 +74,8 @@ Result<DayChanges> changes_between(const fs::path& first, const fs::path& second
   auto changes = change::find_changes(observed(*store, merged->placement, before, after, *lidar_before),
                                       observed(*store, merged->placement, after, before, *lidar_after), {});
   if (!changes) return failure(first.string() + " and " + second.string() + ": " + changes.error().message);
-  DayChanges compared{std::move(*changes), pair.used, std::nullopt, output::has_sea_level_heights(*store)};
+  DayChanges compared{std::move(*changes), pair.used, std::nullopt, output::has_sea_level_heights(*store),
+                      pair.certainty};
   if (output::map_parts(output::nodes_of(*store), merged->placement).main.georeferenced)
     compared.origin = merged->recipe.origin;
   return compared;
@@ -85,6 +87,10 @@ void print_changes(std::ostream& out, const DayChanges& compared) {
   out << std::fixed << std::setprecision(2) << "aligned by " << compared.alignments
       << " alignments of the two days, which fit to " << found.misfit_m << " m, each of them to itself to "
       << found.noise_m << " m\n"
+      << "certain to " << compared.certainty.median_m << " m and " << compared.certainty.median_rad / kDegree
+      << " deg each in their least certain direction (1 sigma, median of the alignments; the worst of them "
+         "to "
+      << compared.certainty.largest_m << " m and " << compared.certainty.largest_rad / kDegree << " deg)\n"
       << std::setprecision(0) << 100.0 * static_cast<double>(found.compared) / whole
       << " % of the surfaces can be compared; of the others one day saw nothing\n"
       << std::setprecision(2) << "surfaces count as different from " << found.min_distance_m

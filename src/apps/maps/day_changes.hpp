@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <optional>
 
+#include "alignment_certainty.hpp"
 #include "fleetmap/change/find_changes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
@@ -17,6 +18,7 @@ struct DayChanges {
   std::size_t alignments = 0;      ///< between the two days, that place them
   std::optional<GeoPoint> origin;  ///< of ENU, if the maps lie on Earth
   bool above_sea_level = false;    ///< heights of a day, as GPS gave them
+  AlignmentCertainty certainty{};  ///< of these alignments
 };
 
 /// Aligns the stores of two days and compares their maps. Fails for days that cannot be aligned, or that

@@ -6,6 +6,7 @@
 #include <memory>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "fleetmap/agent/item_keys.hpp"
 #include "fleetmap/core/paths.hpp"
@@ -132,10 +133,14 @@ std::string why_not_joined(const DayPair& pair, const graph::Placement& placemen
 void check_pair(DayPair& pair, const std::vector<MapSession>& days, const store::Store& store,
                 const graph::Placement& placement) {
   const MapSession &earlier = days[pair.earlier], &later = days[pair.later];
+  std::vector<graph::Alignment> used_between;
   for (const graph::Alignment& used : placement.used) {
     const graph::Node *i = store.node(used.i), *j = store.node(used.j);
-    pair.used += i != nullptr && j != nullptr && between(i->frame(), j->frame(), earlier, later);
+    if (i != nullptr && j != nullptr && between(i->frame(), j->frame(), earlier, later))
+      used_between.push_back(used);
   }
+  pair.used = used_between.size();
+  pair.certainty = certainty_of(used_between);
   const auto is_of = [](const MapSession& day) {
     return [&](const auto& frame) { return day.contains(frame); };
   };

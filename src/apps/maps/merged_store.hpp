@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "alignment_certainty.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/exchange/store_union.hpp"
 #include "fleetmap/loop_closure/map_sessions.hpp"
@@ -17,10 +18,11 @@ namespace fleetmap::apps {
 struct DayPair {
   std::size_t earlier = 0, later = 0;  ///< index of the store
   loop_closure::MapSessionAlignments alignments;
-  std::size_t used = 0;        ///< alignments between the two days that the placement uses
-  bool joined = false;         ///< a frame of one lies in a component with a frame of the other
-  bool frames_shared = false;  ///< an odometry frame is in both stores
-  std::string why_not;         ///< joined, for people
+  std::size_t used = 0;          ///< alignments between the two days that the placement uses
+  AlignmentCertainty certainty;  ///< of these
+  bool joined = false;           ///< a frame of one lies in a component with a frame of the other
+  bool frames_shared = false;    ///< an odometry frame is in both stores
+  std::string why_not;           ///< joined, for people
 };
 
 struct MergedStore {

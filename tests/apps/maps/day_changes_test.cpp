@@ -25,6 +25,8 @@ TEST_F(DayChangesTest, TwoDaysOfOnePlaceAreAlignedAndDoNotDiffer) {
   const auto compared = changes_between(days_.path("a.db"), days_.path("b.db"));
   ASSERT_TRUE(compared) << compared.error().message;
   EXPECT_GE(compared->alignments, 2u);
+  EXPECT_GT(compared->certainty.median_m, 0.0);
+  EXPECT_LT(compared->certainty.median_m, 0.5);
   EXPECT_GT(compared->changes.compared, 1000u);
   EXPECT_LT(compared->changes.misfit_m, 0.2) << "GPS of the second day is 1.6 m off";
   EXPECT_TRUE(compared->changes.changes.empty()) << compared->changes.changes.size() << " changes";
@@ -47,13 +49,15 @@ TEST_F(DayChangesTest, DaysThatCannotBeComparedAreNamedWithTheReason) {
 TEST(DayChangesSummary, HasCountsSharesAndATableIfThereIsAnything) {
   DayChanges compared;
   compared.alignments = 12;
+  compared.certainty = {0.03, 0.08, 0.001, 0.002};
   compared.changes.compared = 750;
   compared.changes.unknown = 250;
   compared.changes.min_cells = 6;
   std::ostringstream none;
   print_changes(none, compared);
   EXPECT_THAT(none.str(),
-              AllOf(HasSubstr("aligned by 12 alignments"), HasSubstr("75 % of the surfaces"),
+              AllOf(HasSubstr("aligned by 12 alignments"), HasSubstr("certain to 0.03 m and 0.06 deg"),
+                    HasSubstr("the worst of them to 0.08 m"), HasSubstr("75 % of the surfaces"),
                     HasSubstr("from 6 cells on"), HasSubstr("\n0 changes: 0 appeared, 0 disappeared\n")));
   change::Change fence;
   fence.kind = change::Kind::disappeared;
