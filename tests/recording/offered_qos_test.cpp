@@ -12,7 +12,7 @@ TEST(OfferedQos, IsAListOfOneProfileWithAllFieldsOfHumble) {
   const YAML::Node profile = latched[0];
   EXPECT_EQ(profile.size(), 9u);
   EXPECT_EQ(profile["history"].as<int>(), 1) << "keep last";
-  EXPECT_EQ(profile["depth"].as<int>(), 10);
+  EXPECT_EQ(profile["depth"].as<int>(), 50);
   EXPECT_EQ(profile["reliability"].as<int>(), 1) << "reliable";
   EXPECT_EQ(profile["durability"].as<int>(), 1) << "transient local";
   EXPECT_EQ(profile["liveliness"].as<int>(), 1);
@@ -21,7 +21,9 @@ TEST(OfferedQos, IsAListOfOneProfileWithAllFieldsOfHumble) {
     EXPECT_EQ(profile[duration]["sec"].as<std::int64_t>(), 9'223'372'036) << duration;
     EXPECT_EQ(profile[duration]["nsec"].as<std::int64_t>(), 854'775'807) << duration;
   }
-  EXPECT_EQ(YAML::Load(offered_qos(Durability::kVolatile))[0]["durability"].as<int>(), 2);
+  const YAML::Node live = YAML::Load(offered_qos(Durability::kVolatile))[0];
+  EXPECT_EQ(live["durability"].as<int>(), 2);
+  EXPECT_EQ(live["depth"].as<int>(), 10);
 }
 
 }  // namespace

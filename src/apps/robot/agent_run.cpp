@@ -183,13 +183,14 @@ CommandResult<ExitCode> run_agent(const AgentOptions& options, std::ostream& out
   }
   run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, live ? &*live : nullptr,
                  options.exit_after_idle, stop_on_signals());
-  if (*recorder) {
-    if (const Status closed = (*recorder)->close(); !closed) spdlog::error("{}", closed.error().message);
-  }
+  if (*recorder) static_cast<void>((*recorder)->close());  // a failure is its problem()
   // Work under way uses the agent; it must have ended before the agent goes.
   (*agent)->stop();
   (*bus)->finish_work();
-  return write_outcome(*config, **agent, **bus, options, out);
+  const auto outcome = write_outcome(*config, **agent, **bus, options, out);
+  if (!*recorder || (*recorder)->problem().empty()) return outcome;
+  out << "the recording ends before the drive: " << (*recorder)->problem() << '\n';
+  return outcome ? CommandResult<ExitCode>(kFailed) : outcome;
 }
 
 }  // namespace fleetmap::apps

@@ -24,8 +24,8 @@ std::filesystem::path free_folder(const std::filesystem::path& directory) {
 }  // namespace
 
 recording::Durability durability_of(const bus::Topic& topic) {
-  return topic.profile == "latched" ? recording::Durability::kTransientLocal
-                                    : recording::Durability::kVolatile;
+  return topic.profile == "sensor" ? recording::Durability::kVolatile
+                                   : recording::Durability::kTransientLocal;
 }
 
 SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bool outputs,
@@ -39,10 +39,9 @@ SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorT
   }
   for (const bus::Topic& topic : recorded) {
     subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
-      if (failed_) return;
+      if (!problem_.empty()) return;
       const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr, durability_of(topic));
-      failed_ = !written;
-      if (failed_) spdlog::error("recording stopped: {}", written.error().message);
+      if (!written) stop(written.error().message);
     }));
   }
 }
@@ -55,9 +54,16 @@ Result<std::unique_ptr<SensorRecorder>> SensorRecorder::create(const RecordOptio
   return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), topics, outputs, bus));
 }
 
+void SensorRecorder::stop(const std::string& problem) {
+  problem_ = problem;
+  spdlog::error("recording stopped: {}", problem);
+}
+
 Status SensorRecorder::close() {
   subscriptions_.clear();
-  return writer_.close();
+  const Status closed = writer_.close();
+  if (!closed && problem_.empty()) stop(closed.error().message);
+  return closed;
 }
 
 }  // namespace fleetmap::apps

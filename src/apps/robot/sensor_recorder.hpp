@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "fleetmap/agent/perception.hpp"
@@ -11,7 +12,7 @@
 
 namespace fleetmap::apps {
 
-/// Durability with which the topic is published here.
+/// Durability with which the topic is published (qos/onboard.xml).
 recording::Durability durability_of(const bus::Topic& topic);
 
 /// Writes what arrives on the sensor topics, and what the robot publishes for ROS 2, into a bag.
@@ -23,12 +24,16 @@ class SensorRecorder {
                                                         const agent::SensorTopics& topics, bool outputs,
                                                         bus::Bus& bus);
   Status close();
+  /// The reason why the bag ends before its time; empty if it does not.
+  const std::string& problem() const { return problem_; }
 
  private:
+  void stop(const std::string& problem);
+
   SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bool outputs, bus::Bus& bus);
 
   recording::BagWriter writer_;
-  bool failed_ = false;
+  std::string problem_;
   std::vector<bus::Handle> subscriptions_;
 };
 

@@ -5,7 +5,9 @@
 
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/recording/reader.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "recordings/sample_player.hpp"
+#include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
@@ -69,6 +71,26 @@ TEST_F(SensorRecorderTest, ABagOfAnEarlierStartIsKept) {
   ASSERT_TRUE(recording->close());
   EXPECT_EQ(counters_of(directory_).imus, 1u);
   EXPECT_EQ(counters_of(directory_.string() + "-1").imus, 2u);
+}
+
+TEST_F(SensorRecorderTest, AFullDiskIsItsProblem) {
+  const auto recording = recorder();
+  publish(1000);
+  EXPECT_EQ(recording->problem(), "");
+  {
+    const testing::FullDisk disk(1 << 16);
+    for (int k = 0; k < 2000 && recording->problem().empty(); ++k) publish(1000 + k);
+    static_cast<void>(recording->close());
+  }
+  EXPECT_NE(recording->problem(), "");
+}
+
+// config/rviz/fleetmap.rviz asks for what is kept, of a robot and of a recording that is played.
+TEST(SensorRecorderDurability, IsThatOfThePublishers) {
+  for (const bus::Topic& topic : {ros_codec::topics::submaps(), ros_codec::topics::map(),
+                                  ros_codec::topics::path(), ros_codec::topics::markers()})
+    EXPECT_EQ(durability_of(topic), recording::Durability::kTransientLocal) << topic.name;
+  EXPECT_EQ(durability_of(ros_codec::topics::points()), recording::Durability::kVolatile);
 }
 
 }  // namespace

@@ -65,6 +65,23 @@ TEST(ServiceNotice, IsReadyFeedsTheWatchdogByItsCallbacksAndStops) {
   EXPECT_TRUE(supervisor.heard().empty());
 }
 
+TEST(ServiceNotice, WorkThatHangsIsNoProgress) {
+  const Supervisor supervisor;
+  ::setenv("WATCHDOG_USEC", "30000000", 1);
+  for (const Duration work : {Duration(std::chrono::minutes(8)), Duration(std::chrono::hours(2))}) {
+    bus::LocalNetworkConfig config;
+    config.background_time = work;
+    const auto network = *bus::LocalNetwork::create(config);
+    const ServiceNotice notice(network->add_robot(*AgentId::parse("r1")));
+    for (int minute = 1; minute <= 20; ++minute) {
+      network->run_until(Stamp{} + std::chrono::minutes(minute));
+      const bool hangs = work > ServiceNotice::kMaxWork && minute > 11;
+      const bool fed = !supervisor.heard().empty();  // read each minute: the socket holds few messages
+      if (minute != 11) EXPECT_EQ(fed, !hangs) << minute;
+    }
+  }
+}
+
 TEST(ServiceNotice, WithoutAWatchdogItOnlyTellsThatItIsReady) {
   const Supervisor supervisor;
   const auto network = *bus::LocalNetwork::create({});
