@@ -71,3 +71,16 @@ export async function pixelsOfMap(page) {
       ),
   );
 }
+
+/** The card lies wholly in the window and leaves the map's middle free, where what it describes is drawn. */
+export async function cardIsBesideItsThing(page) {
+  const at = await page.evaluate(() => {
+    const card = document.getElementById('card').getBoundingClientRect(),
+      map = document.getElementById('canvas').getBoundingClientRect();
+    const inCard = (y) => y > card.top && y < card.bottom;
+    const middle = (map.top + map.bottom) / 2;
+    return {top: card.top, bottom: card.bottom, height: window.innerHeight, middle, covered: inCard(middle)};
+  });
+  assert.ok(at.top >= 0 && at.bottom <= at.height + 1, `the card is out of the window: ${JSON.stringify(at)}`);
+  assert.ok(at.middle > 0 && at.middle < at.height && !at.covered, `what it describes is not: ${JSON.stringify(at)}`);
+}

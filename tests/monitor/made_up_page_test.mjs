@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import {readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join, resolve} from 'node:path';
-import {everythingIsNamed, folder, openBrowser, pageFolder, shot} from './browser.mjs';
+import {cardIsBesideItsThing, everythingIsNamed, folder, openBrowser, pageFolder, shot} from './browser.mjs';
 import {live, node, pair, registration, robot, robotNow, state} from './page/states.mjs';
 
 const {build} = createRequire(resolve(pageFolder, 'package.json'))('esbuild');
@@ -116,6 +116,21 @@ async function onADesk(page, send) {
   await shot(page, 'made_up_desk');
 }
 
+/** What is tapped in a list is described and seen, wherever the list is read; the list comes back with the close. */
+async function onAPhone(page) {
+  await page.locator('#tab-why').click();
+  const row = page.locator('.registration').nth(20);
+  await row.tap();
+  await cardIsBesideItsThing(page);
+  await shot(page, 'made_up_phone_card');
+  await page.locator('#card .close').tap();
+  const top = await row.evaluate((one) => one.getBoundingClientRect().top);
+  assert.ok(top > 0 && top < 844, `the row that was tapped is at ${top} px`);
+  await page.locator('#tab-fleet').tap();
+  await page.locator('.robot .link').last().tap();
+  await cardIsBesideItsThing(page);
+}
+
 try {
   const browser = await openBrowser();
   const desk = await open(browser, 1366, 768);
@@ -129,6 +144,7 @@ try {
     await narrowerThanTheWindow(phone.page, 390);
     await shot(phone.page, `made_up_phone_${tab}`);
   }
+  await onAPhone(phone.page);
   await phone.end();
   const refused = await open(browser, 390, 844, true);
   await refused.page.waitForFunction(() =>

@@ -4,7 +4,16 @@
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
 import {rmSync} from 'node:fs';
-import {everythingIsNamed, fleetmap, folder, noteErrors, openBrowser, pixelsOfMap, shot} from './browser.mjs';
+import {
+  cardIsBesideItsThing,
+  everythingIsNamed,
+  fleetmap,
+  folder,
+  noteErrors,
+  openBrowser,
+  pixelsOfMap,
+  shot,
+} from './browser.mjs';
 import {makeRun, serve} from './shown_run.mjs';
 
 async function mapIsDrawn(page) {
@@ -241,10 +250,14 @@ async function onAPhone(page, state) {
   await page.locator('#layer-nodes').check();
   await page.locator('.layers summary').click();
   await rejectedExplainsItself(page, state);
+  await cardIsBesideItsThing(page);
+  await shot(page, 'phone_rejected');
   await page.locator('#tab-fleet').click();
   assert.equal(await page.locator('.robot').count(), state.robots.length);
   await page.locator('.robot').first().scrollIntoViewIfNeeded();
   await shot(page, 'phone_fleet');
+  await page.locator('.robot .link').first().click();
+  await cardIsBesideItsThing(page);
 }
 
 let server;

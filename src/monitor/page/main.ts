@@ -1,4 +1,4 @@
-import {edgeCard, nodeCard} from './cards';
+import {CardBox} from './card_box';
 import {RobotColours} from './colours';
 import {actOnKey} from './keys';
 import {follow} from './live';
@@ -6,7 +6,7 @@ import type {Hit} from './hit';
 import {linkKeys, type Picture, rampEnds, scaleLength} from './legend';
 import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
-import {type Edge, edgeOfRegistration} from './edges';
+import {edgeOfRegistration} from './edges';
 import {Measure} from './measure';
 import {colourOf, count, duration, type FleetNode, placeMark, type State} from './model';
 import {cutGaps, gapNote} from './times';
@@ -15,6 +15,7 @@ import {FleetNow} from './fleet_now';
 import {RobotMarks} from './robot_marks';
 import {PairView} from './pair_view';
 import {el} from './dom';
+import {Selection} from './selection';
 import {FleetPanel} from './fleet_panel';
 import {WhyPanel} from './why_panel';
 import {RadioPanel} from './radio';
@@ -34,10 +35,13 @@ try {
   byId('no-map').textContent =
     'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
 }
-const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
+const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, (content) => card.show(content));
 const marks = map && new RobotMarks(map, document.getElementById('robots') as unknown as SVGSVGElement);
 const pairView = map && new PairView(map);
-const actions = {selectNode: (id: string) => select({node: id}, true), selectRegistration};
+const actions = {
+  selectNode: (id: string) => select({node: id}, true),
+  selectRegistration: (index: number) => select({edge: edgeOfRegistration(state!, index)}, true),
+};
 const why = new WhyPanel(byId('why'), actions);
 const now = new FleetNow();
 const fleet = new FleetPanel(byId('fleet'), actions, now.root);
@@ -50,6 +54,7 @@ function showState(next: State): void {
   next.colours = colours.of(next.robots.map((robot) => robot.id));
   const gaps = cutGaps(next);
   if (gaps > 0) next.notes.push(gapNote(gaps));
+  const before = state;
   state = next;
   document.title = `${next.title} – fleetmap`;
   setText(byId('title'), next.title);
@@ -58,6 +63,7 @@ function showState(next: State): void {
     `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`,
   );
   map?.show(next);
+  selection.refresh(before, next);
   setTime();
   why.show(next);
   fleet.show(next);
@@ -84,48 +90,13 @@ follow({
 
 // Selection.
 
-let selectedNode: string | undefined;
-function select(hit: Hit | undefined, go = false): void {
-  selectedNode = hit && 'node' in hit ? hit.node : undefined;
-  map?.select(hit);
-  pairView?.end();
-  if (!hit || !state) return showCard(null);
-  if ('node' in hit) return selectNode(hit.node, go);
-  selectEdge(hit.edge, go);
-}
-
-function selectNode(id: string, go: boolean): void {
-  const p = map?.place(id);
-  showCard(nodeCard(state!, id, p));
-  if (go && p) map?.eye.goTo(p);
-}
-
-function selectEdge(edge: Edge, go: boolean): void {
-  const a = map?.place(edge.a),
-    b = map?.place(edge.b);
-  const both = pairView?.buttons(state!, edge);
-  showCard([...edgeCard(state!, edge, a && b?.distanceTo(a)), ...(both ? [both] : [])]);
-  if (edge.registration !== undefined) why.mark(edge.registration);
-  if (go && a && b) map?.eye.goTo(a.clone().add(b).multiplyScalar(0.5));
-}
-
-function selectRegistration(index: number): void {
-  why.mark(index);
-  select({edge: edgeOfRegistration(state!, index)}, true);
-}
-
-function showCard(content: HTMLElement[] | null): void {
-  const card = byId('card');
-  card.hidden = content === null;
-  if (!content) return card.replaceChildren();
-  const close = el('button', {type: 'button', class: 'quiet close', 'aria-label': 'Close'}, '✕');
-  close.onclick = () => {
-    measure?.stop();
-    pressed('measure', false);
-    select(undefined);
-  };
-  card.replaceChildren(close, ...content);
-}
+const card = new CardBox(byId('card'), byId('map'), () => {
+  measure?.stop();
+  pressed('measure', false);
+  select(undefined);
+});
+const selection = new Selection(card, map, pairView, (index) => why.mark(index));
+const select = (hit: Hit | undefined, fromList = false) => selection.select(state, hit, fromList);
 
 // The map's tools.
 
@@ -313,7 +284,7 @@ function stepNode(by: 1 | -1): void {
     .filter(({id}) => map?.place(id))
     .sort((a, b) => (a.robot === b.robot ? a.t - b.t : a.robot < b.robot ? -1 : 1));
   if (nodes.length === 0) return;
-  const at = nodes.findIndex(({id}) => id === selectedNode);
+  const at = nodes.findIndex(({id}) => id === selection.node);
   const next = at < 0 ? (by > 0 ? 0 : nodes.length - 1) : (at + by + nodes.length) % nodes.length;
   select({node: nodes[next].id}, true);
 }

@@ -84,6 +84,18 @@ assert.match(card(), /Alignment in use: r2#0 → r1#0.*8\.0+ m apart/);
 byId('card').querySelector('.close').onclick();
 assert.equal(card(), null);
 assert.deepEqual(told('select').at(-1), ['select', undefined]);
+
+// An open card tells what the newest state has of it.
+click();
+const contradicts = {status: 'against_gps', sentence: 'it contradicts GPS'};
+say({
+  ...fleet,
+  alignments: [alignment('r1#0', 'r2#0', 'against_gps')],
+  registrations: [fleet.registrations[0], {...fleet.registrations[1], alignment: 0, ...contradicts}],
+});
+assert.match(card(), /Alignment not used: r2#0 → r1#0.*it contradicts GPS/);
+say(fleet);
+assert.doesNotMatch(card(), /contradicts/);
 map.hit = undefined;
 click();
 assert.equal(card(), null);
