@@ -116,12 +116,26 @@ async function onADesk(page, send) {
   await shot(page, 'made_up_desk');
 }
 
+/** What a finger is to hit; the label of a checkbox is part of it. */
+async function targetsAreLarge(page) {
+  await page.locator('.layers summary').click();
+  const small = await page.evaluate(() =>
+    [...document.querySelectorAll('#theme, .menu label, .close, .order, .group button, .chip')]
+      .map((one) => [one.outerHTML.slice(0, 60), one.getBoundingClientRect()])
+      .filter(([, box]) => box.width > 0 && Math.min(box.width, box.height) < 36)
+      .map(([html, box]) => `${html} ${box.width} x ${box.height}`),
+  );
+  assert.deepEqual(small, []);
+  await page.locator('.layers summary').click();
+}
+
 /** What is tapped in a list is described and seen, wherever the list is read; the list comes back with the close. */
 async function onAPhone(page) {
   await page.locator('#tab-why').click();
   const row = page.locator('.registration').nth(20);
   await row.tap();
   await cardIsBesideItsThing(page);
+  await targetsAreLarge(page);
   await shot(page, 'made_up_phone_card');
   await page.locator('#card .close').tap();
   const top = await row.evaluate((one) => one.getBoundingClientRect().top);

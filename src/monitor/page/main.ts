@@ -3,12 +3,12 @@ import {RobotColours} from './colours';
 import {actOnKey} from './keys';
 import {follow} from './live';
 import type {Hit} from './hit';
-import {linkKeys, type Picture, rampEnds, scaleLength} from './legend';
+import {edgeKeys, linkKeys, type Picture, rampEnds, rampKey, scaleLength} from './legend';
 import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, duration, type FleetNode, placeMark, type State} from './model';
+import {colourOf, count, counted, duration, type FleetNode, placeMark, type State} from './model';
 import {cutGaps, gapNote} from './times';
 import {setText} from './patch';
 import {FleetNow} from './fleet_now';
@@ -60,7 +60,11 @@ function showState(next: State): void {
   setText(byId('title'), next.title);
   setText(
     byId('summary'),
-    `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`,
+    [
+      counted(next.robots.length, 'robot'),
+      counted(next.nodes.length, 'node'),
+      counted(next.alignments.length, 'alignment'),
+    ].join(' · '),
   );
   map?.show(next);
   selection.refresh(before, next);
@@ -74,7 +78,7 @@ follow({
   onLive(live) {
     byId('tab-radio').hidden = false;
     colours.of(live.robots.map((robot) => robot.id)); // also of those that are not heard yet
-    if (!state) setText(byId('summary'), `${live.robots.length} robots · no nodes yet`);
+    if (!state) setText(byId('summary'), `${counted(live.robots.length, 'robot')} · no nodes yet`);
     now.show(live, state);
     fleet.showNow(live);
     why.showNow(live);
@@ -155,7 +159,7 @@ const small = matchMedia('(pointer: coarse)').matches || Math.min(screen.width, 
 budget.value = String(Math.log10(small ? 300_000 : 1_500_000));
 const setBudget = () => {
   const points = Math.round(10 ** Number(budget.value));
-  byId('budget-value').textContent = count(points);
+  setText(byId('budget-value'), count(points));
   if (map) map.budget = points;
 };
 budget.oninput = setBudget;
@@ -192,8 +196,10 @@ function showPicture(picture: Picture): void {
   }
   canvas.dataset.drawn = String(picture.drawn);
   if (picture.moving) return;
-  byId('drawn').textContent =
-    `${count(picture.drawn)} of ${count(picture.total)} points drawn${picture.loading ? ', loading' : ''}`;
+  setText(
+    byId('drawn'),
+    `${count(picture.drawn)} of ${count(picture.total)} points drawn${picture.loading ? ', loading' : ''}`,
+  );
   canvas.dataset.loading = String(picture.loading);
   canvas.setAttribute(
     'aria-label',
@@ -206,14 +212,18 @@ function showPicture(picture: Picture): void {
 function showScale(picture: Picture): void {
   const length = scaleLength(picture.metresPerPixel);
   byId('scale').querySelector('i')!.style.width = `${length / picture.metresPerPixel}px`;
-  byId('scale').querySelector('span')!.textContent = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
+  const text = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
+  setText(byId('scale').querySelector('span')!, text);
 }
 
 let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = [colour, shownBy, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
+  const kinds = (['used', 'unused', 'rejected'] as const).filter(
+    (kind) => map?.layers[kind] && map.edges.some((edge) => edge.kind === kind),
+  );
+  const key = [colour, shownBy, ...kinds, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
@@ -224,9 +234,9 @@ function showLegend(picture: Picture): void {
       placeMark(robot) ? `${robot.id} (${placeMark(robot)})` : robot.id,
     ),
   );
-  const ramp = el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]);
+  const ramp = rampKey(picture, colour);
   const links = shownBy ? linkKeys(shownBy) : [];
-  byId('legend').replaceChildren(...robots, ...links, ...(colour === 'robot' ? [] : [ramp]));
+  byId('legend').replaceChildren(...robots, ...edgeKeys(kinds), ...links, ...(ramp ? [ramp] : []));
 }
 
 // Pointer and keys.
@@ -239,7 +249,7 @@ canvas.addEventListener('pointerup', (event) => {
   if (!map || !down || Math.hypot(event.offsetX - down.x, event.offsetY - down.y) > 5) return;
   const reach = event.pointerType === 'touch' ? 18 : 10;
   if (measure?.active) return measure.click(event.offsetX, event.offsetY, reach, state!.origin);
-  select(map.hitAt(event.offsetX, event.offsetY, reach));
+  select(map.pick(event.offsetX, event.offsetY, reach));
 });
 canvas.addEventListener('pointermove', (event) => {
   if (!map || event.buttons !== 0) return;
@@ -271,7 +281,7 @@ function pickAtCross(): void {
   const x = canvas.clientWidth / 2,
     y = canvas.clientHeight / 2;
   if (!measure?.active) {
-    const hit = map.hitAt(x, y, kCrossReach);
+    const hit = map.pick(x, y, kCrossReach);
     select(hit);
     return void say(hit ? '' : 'Nothing is at the cross.');
   }

@@ -1,12 +1,12 @@
 import type {CardBox} from './card_box';
-import {edgeCard, nodeCard} from './cards';
+import {edgeCard, nodeCard, pointCard, stepCard} from './cards';
 import {type Edge, edgeIn} from './edges';
 import type {Hit} from './hit';
 import type {FleetMap} from './map';
 import type {State} from './model';
 import type {PairView} from './pair_view';
 
-/** The node or edge that is selected on the map or in a list, and its card. */
+/** The node, edge, point or step of a trajectory that is selected on the map or in a list, and its card. */
 export class Selection {
   private hit?: Hit;
 
@@ -46,7 +46,12 @@ export class Selection {
   }
 
   private content(state: State, hit: Hit): HTMLElement[] | null {
-    if ('node' in hit) return nodeCard(state, hit.node, this.map?.place(hit.node));
+    if ('node' in hit) {
+      if (hit.point) return pointCard(state, hit.node, hit.point);
+      const [p, next] = [hit.node, hit.next].map((id) => (id === undefined ? undefined : this.map?.place(id)));
+      if (hit.next !== undefined) return stepCard(state, hit.node, hit.next, p && next?.distanceTo(p));
+      return nodeCard(state, hit.node, p);
+    }
     const [a, b] = this.places(hit.edge);
     return edgeCard(state, hit.edge, a && b?.distanceTo(a));
   }

@@ -33,6 +33,14 @@ assert.deepEqual(marked, [0]);
 assert.equal(selection.node, undefined);
 assert.match(shown.at(-1)[1], /Rejected registration: r2#0 → r1#0/);
 
+
+// A point of a submap, and the way from a node to the next.
+selection.select(before, {node: 'r1#0', point: new Vector3(1, 2, 3)});
+assert.match(shown.at(-1)[1], /Point of the submap of node r1#0.*1\.00, 2\.00, 3\.00/);
+selection.select(before, {node: 'r1#0', next: 'r2#0'});
+assert.match(shown.at(-1)[1], /Trajectory of r1.*8\.00.m/);
+selection.select(before, {edge: edgeOfRegistration(before, 0)}, true);
+
 // A newer state may list it elsewhere, and have changed what became of it.
 const used = alignment('r1#0', 'r2#0', 'used');
 const after = fleet({
@@ -47,7 +55,7 @@ selection.refresh(before, after);
 assert.equal(shown.at(-1)[0], 'refresh');
 assert.match(shown.at(-1)[1], /Alignment in use: r2#0 → r1#0 the graph uses it/);
 assert.equal(told('select').at(-1)[1].edge.kind, 'used', 'its line has the colour of its new verdict');
-assert.deepEqual([told('goTo'), marked], [[], [0]]);
+assert.deepEqual([told('goTo'), marked], [[], [0, 0]]);
 
 // One that is gone closes its card; without a selection nothing is shown.
 selection.refresh(after, fleet());
