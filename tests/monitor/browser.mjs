@@ -25,15 +25,24 @@ export async function shot(page, name) {
   if (screenshots) await page.screenshot({path: join(screenshots, `${name}.png`)});
 }
 
-/** Every control has a name for screen readers. */
+/** Every control has a name for screen readers; that of a button may be its text, that of a menu is not. */
 export async function everythingIsNamed(page) {
-  const nameless = await page.evaluate(() =>
-    [...document.querySelectorAll('button, input, select, canvas, [role=tab]')]
-      .filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length))
-      .map((one) => one.outerHTML.slice(0, 80)),
-  );
+  const nameless = await page.evaluate(() => {
+    const text = (one) => one?.textContent.trim();
+    const nameOf = (one) =>
+      one.getAttribute('aria-label') ||
+      text(document.getElementById(one.getAttribute('aria-labelledby'))) ||
+      [...(one.labels ?? [])].some(text) ||
+      (one.matches('button, [role=tab]') && text(one));
+    return [...document.querySelectorAll('button, input, select, canvas, [role=tab]')]
+      .filter((one) => !nameOf(one))
+      .map((one) => one.outerHTML.slice(0, 80));
+  });
   assert.deepEqual(nameless, []);
 }
+
+/** The text of an element with common spaces, also between numbers and their units. */
+export const spaced = async (locator) => (await locator.textContent()).replaceAll('\u00a0', ' ');
 
 /** All errors and warnings that the page causes from now on. */
 export function noteErrors(page) {

@@ -89,7 +89,7 @@ async function refreshLeavesAlone(page, send) {
   await kinds.evaluate((one) => (one.scrollLeft = 50));
   const status = now();
   send({live: {...status, radio: {...status.radio, sent: 901}}});
-  await page.waitForFunction(() => /Sends 901 B/.test(document.querySelector('#radio .headline').textContent));
+  await page.waitForFunction(() => /sends 901\sB/.test(document.querySelector('#radio .headline').textContent));
   assert.equal(await kinds.evaluate((one) => one.scrollLeft), 50);
   await page.locator('#tab-why').click();
 }
