@@ -105,7 +105,11 @@ async function fleetAndRadio(page, name) {
   await textIs(page, '[data-sensor=imu]', /none yet/);
   await shot(page, `${name}_fleet`);
   await page.locator('#tab-radio').click();
-  await textIs(page, '#radio .headline', /r1 sends .*\/s of .*\/s that it may.*all robots together may send 18\.1 kB\/s/);
+  await textIs(
+    page,
+    '#radio .headline',
+    /r1 sends .*\/s of .*\/s that it may.*all robots together may send 18\.1 kB\/s/,
+  );
   await textIs(page, '#radio [data-of=wifi]', /Wi-Fi: r1 sends .*B\/s and receives .*B\/s/);
   await textIs(page, '#radio [data-of=access]', /Anyone on the radios may join.* has no keys/);
   await textIs(page, '#radio [data-of=kinds]', /status.*radio/);
@@ -172,7 +176,11 @@ async function giveAndCallHome(page) {
   );
   await page.getByRole('button', {name: 'Call r1 home'}).click();
   await page.getByRole('button', {name: 'Really call home? Call r1 home'}).click();
-  await textIs(page, '[data-robot=r1]', /r1 was called home and gave its rows away: (it is back at|\d+ m from) its start/);
+  await textIs(
+    page,
+    '[data-robot=r1]',
+    /r1 was called home and gave its rows away: (it is back at|\d+ m from) its start/,
+  );
   await shot(page, 'called_home');
   await page.getByRole('button', {name: 'Resume r1'}).click();
   await page.getByRole('button', {name: 'Call r1 home'}).waitFor({timeout: kPatience_ms});
@@ -185,7 +193,8 @@ const stateOf = (page) => page.evaluate(async () => (await fetch('/state.json'))
 
 /** The summary counts more nodes, and the map has points of many colours. */
 async function mapGrows(page) {
-  const nodes = () => page.evaluate(() => Number(document.getElementById('summary').textContent.match(/(\d+) node/)?.[1]));
+  const nodes = () =>
+    page.evaluate(() => Number(document.getElementById('summary').textContent.match(/(\d+) node/)?.[1]));
   await textIs(page, '#summary', /2 robots · \d+ nodes? · \d+ alignments?/);
   const first = await nodes();
   await page.waitForFunction(
@@ -202,7 +211,10 @@ async function mapGrows(page) {
     await page.waitForFunction(() => !document.getElementById('map').classList.contains('coarse'));
     pixels = await pixelsOfMap(page);
   } while ((pixels.covered < 0.005 || pixels.colours < 10) && Date.now() < end);
-  assert.ok(pixels.covered >= 0.005 && pixels.colours >= 10, `the map shows next to nothing: ${JSON.stringify(pixels)}`);
+  assert.ok(
+    pixels.covered >= 0.005 && pixels.colours >= 10,
+    `the map shows next to nothing: ${JSON.stringify(pixels)}`,
+  );
 }
 
 /** While r1 drives on for 40 s no node of r2, which is held, lies apart from where it came to a halt. */
@@ -212,15 +224,21 @@ async function r2StaysWhereItIs(page) {
   let state;
   const end = Date.now() + kPatience_ms;
   do {
-    await page.waitForFunction((text) => document.getElementById('summary').textContent !== text,
-      await page.locator('#summary').textContent(), {timeout: kPatience_ms});
+    await page.waitForFunction(
+      (text) => document.getElementById('summary').textContent !== text,
+      await page.locator('#summary').textContent(),
+      {timeout: kPatience_ms},
+    );
     state = await stateOf(page);
   } while (latest(state, 'r1') < heldAt + 40 && Date.now() < end);
   assert.ok(latest(state, 'r1') >= heldAt + 40, 'r1 does not drive on');
   const own = state.nodes.filter((one) => one.robot === 'r2').sort((a, b) => a.t - b.t);
   const halt = own.filter(({t}) => t <= heldAt + 10).at(-1);
   const apart = own.filter(({t}) => t > heldAt + 10).map(({T}) => Math.hypot(T[0] - halt.T[0], T[1] - halt.T[1]));
-  assert.ok(apart.every((metres) => metres < 1.5), `r2 is held and moved ${apart.join(', ')} m`);
+  assert.ok(
+    apart.every((metres) => metres < 1.5),
+    `r2 is held and moved ${apart.join(', ')} m`,
+  );
 }
 
 /** `fleetmap run --monitor`: virtual time as it passes, with the same orders. */

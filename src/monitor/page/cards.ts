@@ -2,7 +2,16 @@ import type {Vector3} from 'three';
 import {el} from './dom';
 import type {Edge} from './edges';
 import {geoText, toGeo} from './geodesy';
-import {comparable, duration, type FleetNode, isNumber, kNoDistance, kNotGeoreferenced, metres, type State} from './model';
+import {
+  comparable,
+  duration,
+  type FleetNode,
+  isNumber,
+  kNoDistance,
+  kNotGeoreferenced,
+  metres,
+  type State,
+} from './model';
 
 const kVerdicts = {
   accepted: 'Accepted registration, whose alignment is not held here',

@@ -1,4 +1,15 @@
-import {ago, bytes, colourOf, counted, linkName, metres, type Live, type RobotNow, type Sensor, type State} from './model';
+import {
+  ago,
+  bytes,
+  colourOf,
+  counted,
+  linkName,
+  metres,
+  type Live,
+  type RobotNow,
+  type Sensor,
+  type State,
+} from './model';
 import {el, unbroken} from './dom';
 import {OrderButton} from './order_button';
 import {patch, setText} from './patch';
@@ -37,8 +48,16 @@ export class FleetNow {
 
   constructor() {
     this.all.append(
-      this.orderButton('Hold all', () => this.order('hold'), () => 'Really hold all?').root,
-      this.orderButton('Call all home', () => this.order('home'), () => 'Really call all home?').root,
+      this.orderButton(
+        'Hold all',
+        () => this.order('hold'),
+        () => 'Really hold all?',
+      ).root,
+      this.orderButton(
+        'Call all home',
+        () => this.order('home'),
+        () => 'Really call all home?',
+      ).root,
       this.orderButton('Resume all', () => this.order('resume')).root,
     );
     this.root.append(

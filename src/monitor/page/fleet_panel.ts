@@ -70,7 +70,7 @@ export class FleetPanel {
             'td',
             {
               colspan: String(state.robots.length),
-              title: 
+              title:
                 `${robot.id} lacks ${counted(all - robot.nodes, 'node')} and ` +
                 `${counted(all - robot.submaps, 'submap')} of ${all} in all`,
             },
@@ -107,9 +107,7 @@ export class FleetPanel {
       );
     }
     if (robot.alignments_used !== undefined)
-      facts.append(
-        alignmentWords(robot.alignments_used, robot.alignments_rejected ?? 0),
-      );
+      facts.append(alignmentWords(robot.alignments_used, robot.alignments_rejected ?? 0));
     const joined = state.pairs
       .filter((pair) => pair.joined && (pair.a === robot.id || pair.b === robot.id))
       .map((pair) => (pair.a === robot.id ? pair.b : pair.a));
@@ -233,4 +231,5 @@ export class FleetPanel {
 }
 
 const alignmentWords = (used: number, rejected: number) =>
-  ` ${used} of its alignments ${used === 1 ? 'is' : 'are'} in use, ${rejected} ${rejected === 1 ? 'contradicts' : 'contradict'}.`;
+  ` ${used} of its alignments ${used === 1 ? 'is' : 'are'} in use, ` +
+  `${rejected} ${rejected === 1 ? 'contradicts' : 'contradict'}.`;

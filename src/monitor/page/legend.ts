@@ -60,5 +60,9 @@ export function edgeKeys(kinds: readonly (keyof typeof kEdgeNames)[]): HTMLEleme
  */
 export function linkKeys(self: string): HTMLElement[] {
   const key = (kind: string, words: string) => el('span', {}, el('i', {class: `key link-${kind}`}), words);
-  return [key('good', `heard by ${self}, whose links alone are drawn`), key('poor', 'loses a fifth, or late'), key('silent', 'lost')];
+  return [
+    key('good', `heard by ${self}, whose links alone are drawn`),
+    key('poor', 'loses a fifth, or late'),
+    key('silent', 'lost'),
+  ];
 }

@@ -35,7 +35,9 @@ try {
   byId('no-map').textContent =
     'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
 }
-const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, (content) => card.show(content));
+const measure =
+  map &&
+  new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, (content) => card.show(content));
 const marks = map && new RobotMarks(map, document.getElementById('robots') as unknown as SVGSVGElement);
 const pairView = map && new PairView(map);
 const actions = {

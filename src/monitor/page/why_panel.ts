@@ -73,12 +73,20 @@ export class WhyPanel {
     const loose = state.loose_sessions.join(', ');
     if (robots < 2) {
       const but = loose === '' ? '' : ` But ${loose}.`;
-      return el('p', {class: 'headline'}, `One robot: ${counted(used, 'alignment')} of its own path ${used === 1 ? 'is' : 'are'} in use.${but}`);
+      return el(
+        'p',
+        {class: 'headline'},
+        `One robot: ${counted(used, 'alignment')} of its own path ${used === 1 ? 'is' : 'are'} in use.${but}`,
+      );
     }
     if (apart === 0 && loose !== '')
       return el('p', {class: 'headline bad'}, `All ${robots} robots are joined, but not all sessions: ${loose}.`);
     if (apart === 0)
-      return el('p', {class: 'headline good'}, `All ${robots} robots are joined: ${counted(used, 'alignment')} ${used === 1 ? 'is' : 'are'} in use.`);
+      return el(
+        'p',
+        {class: 'headline good'},
+        `All ${robots} robots are joined: ${counted(used, 'alignment')} ${used === 1 ? 'is' : 'are'} in use.`,
+      );
     const text = `${apart} of ${counted(state.pairs.length, 'pair')} of robots ${apart === 1 ? 'is' : 'are'} not joined.`;
     return el('p', {class: 'headline bad'}, loose === '' ? text : `${text} Besides, ${loose}.`);
   }

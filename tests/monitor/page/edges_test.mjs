@@ -42,7 +42,7 @@ const grown = state({
     ...fleet.registrations.map((one) => ({...one, alignment: one.alignment === null ? null : one.alignment + 1})),
   ],
 });
-const grew = (index) => index === undefined ? undefined : index + 1;
+const grew = (index) => (index === undefined ? undefined : index + 1);
 for (const edge of edges) {
   const {kind, a, b} = edge;
   const found = edgeIn(grown, fleet, edge);

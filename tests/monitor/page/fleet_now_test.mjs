@@ -37,7 +37,10 @@ try {
     alignments: 2,
   });
   assert.match(textOf(card('r2')), /r2in contact.*r2 drives row 7\./);
-  assert.match(textOf(card('r2')), /Last heard 3 s ago by radio; battery 63 %; position known to 0\.03 m \(1 σ\) now, by its EKF;/);
+  assert.match(
+    textOf(card('r2')),
+    /Last heard 3 s ago by radio; battery 63 %; position known to 0\.03 m \(1 σ\) now, by its EKF;/,
+  );
   assert.match(textOf(card('r2')), /holds 4 nodes, 3 submaps, 2 alignments\./);
   assert.match(textOf(card('r1')), /shows this page/);
   clock += 58_000;
@@ -59,7 +62,11 @@ try {
     {link: 'short_range', seconds_ago: 2},
     {link: 'long_range', seconds_ago: 36},
   ];
-  fleet.show(live([robotNow('r1', clocks), robotNow('r2', {...clocks, heard, nodes: 1, submaps: 1, alignments: 1})], {sensors: [lidar]}));
+  fleet.show(
+    live([robotNow('r1', clocks), robotNow('r2', {...clocks, heard, nodes: 1, submaps: 1, alignments: 1})], {
+      sensors: [lidar],
+    }),
+  );
   assert.match(textOf(card('r1')), /The clock of its lidar is 120 ms behind/);
   assert.match(textOf(card('r2')), /the clock of its lidar is about 128 ms behind/);
   assert.match(textOf(card('r2')), /Last heard 2 s ago by Wi-Fi, before that 36 s ago by radio;/);

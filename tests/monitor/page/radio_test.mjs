@@ -86,8 +86,18 @@ assert.deepEqual(titles, ['Bytes per second of r1 on the long-range radio', 'Byt
 
 // A plot of each link: of the radio with the share, of Wi-Fi without.
 show({sent: 77, kinds: [{link: 'short_range', kind: 'submap_chunk', sent: 4000, received: 90}]});
-const plotOf = (k) => FakePlot.shown.filter((one) => !one.destroyed)[k].data.map((values) => values.at(-1)).slice(1);
-assert.deepEqual([plotOf(0), plotOf(1)], [[77, 250, 1000], [4000, 90]]);
+const plotOf = (k) =>
+  FakePlot.shown
+    .filter((one) => !one.destroyed)
+    [k].data.map((values) => values.at(-1))
+    .slice(1);
+assert.deepEqual(
+  [plotOf(0), plotOf(1)],
+  [
+    [77, 250, 1000],
+    [4000, 90],
+  ],
+);
 const plots = FakePlot.shown.length;
 panel.redraw();
 assert.equal(FakePlot.shown.length, plots + 2);

@@ -14,12 +14,15 @@ assert.equal(FakePlot.shown.length, drawn, 'nothing came yet');
 for (let k = 0; k < 400; ++k) chart.add(k, 10 * k, 20 * k, 5);
 chart.draw();
 const plot = FakePlot.shown.at(-1);
-assert.deepEqual(plot.data.map((values) => [values.length, values[0], values.at(-1)]), [
-  [300, 100, 399],
-  [300, 1000, 3990],
-  [300, 2000, 7980],
-  [300, 5, 5],
-]);
+assert.deepEqual(
+  plot.data.map((values) => [values.length, values[0], values.at(-1)]),
+  [
+    [300, 100, 399],
+    [300, 1000, 3990],
+    [300, 2000, 7980],
+    [300, 5, 5],
+  ],
+);
 assert.deepEqual(
   plot.options.series.map((one) => one.label),
   ['time', 'sent', 'received', 'may send'],

@@ -33,7 +33,6 @@ assert.deepEqual(marked, [0]);
 assert.equal(selection.node, undefined);
 assert.match(shown.at(-1)[1], /Rejected registration: r2#0 → r1#0/);
 
-
 // A point of a submap, and the way from a node to the next.
 selection.select(before, {node: 'r1#0', point: new Vector3(1, 2, 3)});
 assert.match(shown.at(-1)[1], /Point of the submap of node r1#0.*1\.00, 2\.00, 3\.00/);
