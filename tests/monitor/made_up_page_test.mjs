@@ -94,6 +94,19 @@ async function refreshLeavesAlone(page, send) {
   await page.locator('#tab-why').click();
 }
 
+/** The first press asks, and the focus stays for the second. */
+async function callsHomeByKeyboard(page) {
+  await page.locator('#tab-fleet').click();
+  await page.getByRole('button', {name: 'Call all home'}).focus();
+  const orders = page.waitForRequest('**/operator/home');
+  await page.keyboard.press('Enter');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Really call all home?');
+  await page.keyboard.press('Enter');
+  assert.equal((await orders).method(), 'POST');
+  await page.waitForFunction(() => /Ordered: call all robots home/.test(document.getElementById('fleet').textContent));
+  await page.locator('#tab-why').click();
+}
+
 async function onADesk(page, send) {
   await page.waitForFunction(() => document.querySelectorAll('#robots line.link').length === 11);
   const count = (selector) => page.locator(`#robots ${selector}`).count();
@@ -110,6 +123,8 @@ async function onADesk(page, send) {
     assert.match(await page.locator('#card').textContent(), new RegExp(`Node ${id}made`));
   }
   assert.ok(await page.locator('.cross').isVisible());
+  await callsHomeByKeyboard(page);
+  await page.locator('#canvas').focus();
   await page.keyboard.press('m');
   await page.keyboard.press('Enter');
   assert.equal(await page.locator('#said').textContent(), 'No point is at the cross.');
@@ -141,6 +156,7 @@ async function onAPhone(page) {
   const top = await row.evaluate((one) => one.getBoundingClientRect().top);
   assert.ok(top > 0 && top < 844, `the row that was tapped is at ${top} px`);
   await page.locator('#tab-fleet').tap();
+  await targetsAreLarge(page);
   await page.locator('.robot .link').last().tap();
   await cardIsBesideItsThing(page);
 }
