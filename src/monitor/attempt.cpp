@@ -1,7 +1,10 @@
 #include "fleetmap/monitor/attempt.hpp"
 
 #include <array>
+#include <cctype>
 #include <cstdio>
+
+#include "fleetmap/core/text_list.hpp"
 
 namespace fleetmap::monitor {
 namespace {
@@ -12,11 +15,17 @@ std::string text(const char* format, double value) {
   return buffer.data();
 }
 
+/// Measures of the pose that was found, as the begin of a sentence, without an RMSE that is the reason.
 std::string measures(const Attempt& attempt) {
   std::string said;
-  if (attempt.overlap) said += text(", %.0f %% of the cloud overlaps", 100.0 * *attempt.overlap);
-  if (attempt.inlier_fraction) said += text(", %.0f %% are inliers", 100.0 * *attempt.inlier_fraction);
-  if (attempt.rmse_m) said += text(", E %.1f cm", 100.0 * *attempt.rmse_m);
+  if (attempt.overlap) append_to_list(said, text("%.0f %% of the cloud overlaps", 100.0 * *attempt.overlap));
+  if (attempt.inlier_fraction)
+    append_to_list(said, text("%.0f %% are inliers", 100.0 * *attempt.inlier_fraction));
+  if (attempt.rmse_m) {
+    const std::string rmse = text("inlier RMSE is %.2f m", *attempt.rmse_m);
+    if (attempt.reason.find(rmse) == std::string::npos) append_to_list(said, "the " + rmse);
+  }
+  if (!said.empty()) said.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(said.front())));
   return said;
 }
 
@@ -46,7 +55,8 @@ std::string sentence(const Attempt& attempt, std::optional<graph::AlignmentStatu
   std::string said = attempt.by.str() + " registered " + to_string(attempt.source) + " onto " +
                      to_string(attempt.target) + ": " + attempt.verdict;
   if (!attempt.reason.empty()) said += ", because " + attempt.reason;
-  if (attempt.verdict != "failed") said += measures(attempt);
+  const std::string measured = attempt.verdict == "failed" ? "" : measures(attempt);
+  if (!measured.empty()) said += ". " + measured;
   if (status) said += "; " + fate(*status);
   return said + ".";
 }

@@ -11,6 +11,7 @@
 
 #include "fleetmap/core/text_list.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
+#include "reasons.hpp"
 
 namespace fleetmap::monitor {
 namespace {
@@ -95,45 +96,11 @@ void find_nearest(const std::vector<PlacedNode>& a, const std::vector<PlacedNode
   if (answer.nearest) answer.nearest_m = std::sqrt(min_squared);
 }
 
-/// "0.34 of ... 0.45" -> "# of ... #": reasons that differ in their numbers alone are one reason.
-std::string without_numbers(const std::string& reason) {
-  std::string kind;
-  for (const char c : reason) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0 || (c == '.' && kind.ends_with('#'));
-    if (!digit) {
-      kind.push_back(c);
-    } else if (!kind.ends_with('#')) {
-      kind.push_back('#');
-    }
-  }
-  return kind;
-}
-
-struct Reason {
-  std::string example;
-  std::size_t count = 0;
-};
-
-/// Why attempts were not accepted, the commonest first.
-std::vector<Reason> reasons_of(const std::vector<const Attempt*>& attempts) {
-  std::map<std::string, Reason> kinds;
-  for (const Attempt* attempt : attempts) {
-    if (attempt->verdict == "accepted") continue;
-    const std::string& said = attempt->reason.empty() ? attempt->verdict : attempt->reason;
-    Reason& reason = kinds[without_numbers(said)];
-    if (reason.count++ == 0) reason.example = said;
-  }
-  std::vector<Reason> sorted;
-  for (auto& [kind, reason] : kinds) sorted.push_back(std::move(reason));
-  std::ranges::stable_sort(sorted, std::greater{}, &Reason::count);
-  return sorted;
-}
-
 std::string listed(const std::vector<Reason>& reasons) {
   constexpr std::size_t kShown = 3;
   std::string said;
   for (std::size_t k = 0; k < std::min(kShown, reasons.size()); ++k)
-    said += (k == 0 ? "" : "; ") + times(reasons[k].count) + " because " + reasons[k].example;
+    said += (k == 0 ? "" : "; ") + times(reasons[k].count) + " because " + reasons[k].text;
   if (reasons.size() > kShown) said += "; and for other reasons";
   return said;
 }
@@ -190,7 +157,7 @@ void explain_no_alignment(const Facts& facts, const Evidence& known, PairAnswer&
   } else if (!known.attempts.empty()) {
     const std::vector<Reason> reasons = reasons_of(known.attempts);
     const bool overlap =
-        !reasons.empty() && reasons.front().example.find("overlap too little") != std::string::npos;
+        !reasons.empty() && reasons.front().text.find("overlap too little") != std::string::npos;
     answer.state = overlap ? PairState::no_overlap : PairState::rejected;
     answer.text = both + " were registered " + times(known.attempts.size()) +
                   (overlap ? ", near each other but without enough overlap: " : ", and none was accepted: ") +
@@ -263,7 +230,10 @@ PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b) {
       answer.text = "joined through " + go_betweens(facts, a, b) + "; directly not, since " + answer.text;
     }
   }
-  answer.text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(answer.text.front())));
+  // Names are case-sensitive.
+  const bool is_name = answer.text.starts_with(a.str() + " ") || answer.text.starts_with(b.str() + " ");
+  if (!is_name)
+    answer.text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(answer.text.front())));
   answer.text += '.';
   return answer;
 }

@@ -99,8 +99,8 @@ json nodes_json(const FleetView& view) {
 /// not here.
 std::string sentence_of(const graph::Alignment& alignment, graph::AlignmentStatus status) {
   std::array<char, 96> numbers{};
-  std::snprintf(numbers.data(), numbers.size(), ", E %.1f cm, %.0f %% are inliers; ",
-                100.0 * alignment.best().rmse, 100.0 * alignment.best().inlier_fraction);
+  std::snprintf(numbers.data(), numbers.size(), ". %.0f %% are inliers, the inlier RMSE is %.2f m; ",
+                100.0 * alignment.best().inlier_fraction, alignment.best().rmse);
   return alignment.computed_by.str() + " registered " + to_string(alignment.j) + " onto " +
          to_string(alignment.i) + ": " + (alignment.ambiguous() ? "several poses fit" : "accepted") +
          numbers.data() + fate(status) + ".";

@@ -257,7 +257,7 @@ void set_paper_verdict(const PaperConfig& config, RegistrationResult& result) {
                   "only %.2f of the source points are inliers, at least %.2f are needed",
                   result.inlier_fraction, config.min_inlier_fraction);
   } else if (result.rmse > config.max_rmse_m) {
-    std::snprintf(reason, sizeof reason, "E is %.2f m, at most %.2f m is good", result.rmse,
+    std::snprintf(reason, sizeof reason, "inlier RMSE is %.2f m, at most %.2f m is good", result.rmse,
                   config.max_rmse_m);
   } else {
     result.verdict = Verdict::accepted;

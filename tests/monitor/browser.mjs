@@ -25,15 +25,24 @@ export async function shot(page, name) {
   if (screenshots) await page.screenshot({path: join(screenshots, `${name}.png`)});
 }
 
-/** Every control has a name for screen readers. */
+/** Every control has a name for screen readers; that of a button may be its text, that of a menu is not. */
 export async function everythingIsNamed(page) {
-  const nameless = await page.evaluate(() =>
-    [...document.querySelectorAll('button, input, select, canvas, [role=tab]')]
-      .filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length))
-      .map((one) => one.outerHTML.slice(0, 80)),
-  );
+  const nameless = await page.evaluate(() => {
+    const text = (one) => one?.textContent.trim();
+    const nameOf = (one) =>
+      one.getAttribute('aria-label') ||
+      text(document.getElementById(one.getAttribute('aria-labelledby'))) ||
+      [...(one.labels ?? [])].some(text) ||
+      (one.matches('button, [role=tab]') && text(one));
+    return [...document.querySelectorAll('button, input, select, canvas, [role=tab]')]
+      .filter((one) => !nameOf(one))
+      .map((one) => one.outerHTML.slice(0, 80));
+  });
   assert.deepEqual(nameless, []);
 }
+
+/** The text of an element with common spaces, also between numbers and their units. */
+export const spaced = async (locator) => (await locator.textContent()).replaceAll('\u00a0', ' ');
 
 /** All errors and warnings that the page causes from now on. */
 export function noteErrors(page) {
@@ -70,4 +79,17 @@ export async function pixelsOfMap(page) {
         }),
       ),
   );
+}
+
+/** The card lies wholly in the window and leaves the map's middle free, where what it describes is drawn. */
+export async function cardIsBesideItsThing(page) {
+  const at = await page.evaluate(() => {
+    const card = document.getElementById('card').getBoundingClientRect(),
+      map = document.getElementById('canvas').getBoundingClientRect();
+    const inCard = (y) => y > card.top && y < card.bottom;
+    const middle = (map.top + map.bottom) / 2;
+    return {top: card.top, bottom: card.bottom, height: window.innerHeight, middle, covered: inCard(middle)};
+  });
+  assert.ok(at.top >= 0 && at.bottom <= at.height + 1, `the card is out of the window: ${JSON.stringify(at)}`);
+  assert.ok(at.middle > 0 && at.middle < at.height && !at.covered, `what it describes is not: ${JSON.stringify(at)}`);
 }

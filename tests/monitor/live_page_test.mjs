@@ -7,7 +7,7 @@ import {rmSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
-import {everythingIsNamed, fleetmap, folder, noteErrors, openBrowser, shot} from './browser.mjs';
+import {everythingIsNamed, fleetmap, folder, noteErrors, openBrowser, pixelsOfMap, shot} from './browser.mjs';
 
 /**
  * DDS domains that no other test has, as tests/bus/dds_domains.hpp gives them away; they are free again when the lock's
@@ -71,7 +71,8 @@ function addressOf(process) {
 
 const textIs = (page, selector, pattern) =>
   page.waitForFunction(
-    ([where, what]) => new RegExp(what, 's').test(document.querySelector(where)?.textContent ?? ''),
+    ([where, what]) =>
+      new RegExp(what, 's').test(document.querySelector(where)?.textContent.replaceAll('\u00a0', ' ') ?? ''),
     [selector, pattern.source],
     {timeout: kPatience_ms},
   );
@@ -104,7 +105,12 @@ async function fleetAndRadio(page, name) {
   await textIs(page, '[data-sensor=imu]', /none yet/);
   await shot(page, `${name}_fleet`);
   await page.locator('#tab-radio').click();
-  await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may.*all robots together may send 18\.1 kB\/s/);
+  await textIs(
+    page,
+    '#radio .headline',
+    /r1 sends .*\/s of .*\/s that it may.*all robots together may send 18\.1 kB\/s/,
+  );
+  await textIs(page, '#radio [data-of=wifi]', /Wi-Fi: r1 sends .*B\/s and receives .*B\/s/);
   await textIs(page, '#radio [data-of=access]', /Anyone on the radios may join.* has no keys/);
   await textIs(page, '#radio [data-of=kinds]', /status.*radio/);
   await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
@@ -112,12 +118,14 @@ async function fleetAndRadio(page, name) {
   await shot(page, `${name}_radio`);
 }
 
-async function holdAndResume(page) {
+/** `whileHeld` is called with the page while r2 stands. */
+async function holdAndResume(page, whileHeld) {
   await page.locator('#tab-fleet').click();
   const button = page.getByRole('button', {name: 'Hold r2'});
   await button.click();
   await textIs(page, '[data-robot=r2]', /r2 stands still: an operator holds it/);
   await shot(page, 'live_held');
+  await whileHeld?.(page);
   await page.getByRole('button', {name: 'Resume all'}).click();
   // A later order for all replaces that for one.
   await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: kPatience_ms});
@@ -136,7 +144,7 @@ async function turnsLostInTime(page, heard) {
     {timeout: kPatience_ms, polling: 100},
   );
   const waited_s = (performance.now() - killed) / 1000;
-  const silent_s = Number((await text.jsonValue()).match(/Last heard (\d+) s ago/)[1]);
+  const silent_s = Number((await text.jsonValue()).match(/Last heard (\d+)\ss ago/)[1]);
   assert.ok(silent_s >= kLostAfter_s && silent_s <= kLostAfter_s + 5, `lost after ${silent_s} s of silence`);
   assert.ok(waited_s <= kLostAfter_s + 15, `lost ${waited_s} s after it was killed`);
 }
@@ -155,6 +163,7 @@ async function giveAndCallHome(page) {
   await page.getByLabel('Row of r1', {exact: true}).selectOption(row);
   await page.getByLabel('Robot that drives the row of r1').selectOption('r2');
   await page.getByRole('group', {name: 'Give a row of r1 away'}).getByRole('button', {name: 'Give'}).click();
+  await page.getByRole('button', {name: `Really give row ${row}?`}).click();
   await textIs(page, '#fleet', new RegExp(`Ordered: r1 gives row ${row} to r2\\.`));
   const options = ([name, value]) =>
     [...document.querySelectorAll(`[aria-label="Row of ${name}"] option`)].some((option) => option.value === value);
@@ -166,13 +175,70 @@ async function giveAndCallHome(page) {
     {timeout: kPatience_ms},
   );
   await page.getByRole('button', {name: 'Call r1 home'}).click();
-  await textIs(page, '[data-robot=r1]', /r1 was called home and gave its rows away/);
+  await page.getByRole('button', {name: 'Really call home? Call r1 home'}).click();
+  await textIs(
+    page,
+    '[data-robot=r1]',
+    /r1 was called home and gave its rows away: (it is back at|\d+ m from) its start/,
+  );
   await shot(page, 'called_home');
   await page.getByRole('button', {name: 'Resume r1'}).click();
   await page.getByRole('button', {name: 'Call r1 home'}).waitFor({timeout: kPatience_ms});
   await page.waitForFunction(() => !/called home/.test(document.querySelector('[data-robot=r1]').textContent), null, {
     timeout: kPatience_ms,
   });
+}
+
+const stateOf = (page) => page.evaluate(async () => (await fetch('/state.json')).json());
+
+/** The summary counts more nodes, and the map has points of many colours. */
+async function mapGrows(page) {
+  const nodes = () =>
+    page.evaluate(() => Number(document.getElementById('summary').textContent.match(/(\d+) node/)?.[1]));
+  await textIs(page, '#summary', /2 robots · \d+ nodes? · \d+ alignments?/);
+  const first = await nodes();
+  await page.waitForFunction(
+    (n) => Number(document.getElementById('summary').textContent.match(/(\d+) node/)?.[1]) > n,
+    first,
+    {timeout: kPatience_ms},
+  );
+  await page.waitForFunction(() => Number(document.getElementById('canvas').dataset.drawn) > 1000, null, {
+    timeout: kPatience_ms,
+  });
+  let pixels;
+  const end = Date.now() + kPatience_ms;
+  do {
+    await page.waitForFunction(() => !document.getElementById('map').classList.contains('coarse'));
+    pixels = await pixelsOfMap(page);
+  } while ((pixels.covered < 0.005 || pixels.colours < 10) && Date.now() < end);
+  assert.ok(
+    pixels.covered >= 0.005 && pixels.colours >= 10,
+    `the map shows next to nothing: ${JSON.stringify(pixels)}`,
+  );
+}
+
+/** While r1 drives on for 40 s no node of r2, which is held, lies apart from where it came to a halt. */
+async function r2StaysWhereItIs(page) {
+  const latest = ({nodes}, robot) => Math.max(0, ...nodes.filter((one) => one.robot === robot).map(({t}) => t));
+  const heldAt = latest(await stateOf(page), 'r1');
+  let state;
+  const end = Date.now() + kPatience_ms;
+  do {
+    await page.waitForFunction(
+      (text) => document.getElementById('summary').textContent !== text,
+      await page.locator('#summary').textContent(),
+      {timeout: kPatience_ms},
+    );
+    state = await stateOf(page);
+  } while (latest(state, 'r1') < heldAt + 40 && Date.now() < end);
+  assert.ok(latest(state, 'r1') >= heldAt + 40, 'r1 does not drive on');
+  const own = state.nodes.filter((one) => one.robot === 'r2').sort((a, b) => a.t - b.t);
+  const halt = own.filter(({t}) => t <= heldAt + 10).at(-1);
+  const apart = own.filter(({t}) => t > heldAt + 10).map(({T}) => Math.hypot(T[0] - halt.T[0], T[1] - halt.T[1]));
+  assert.ok(
+    apart.every((metres) => metres < 1.5),
+    `r2 is held and moved ${apart.join(', ')} m`,
+  );
 }
 
 /** `fleetmap run --monitor`: virtual time as it passes, with the same orders. */
@@ -205,9 +271,10 @@ async function testVirtual(browser) {
         {timeout: kPatience_ms},
       );
       await page.locator('#tab-radio').click();
-      await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may/);
+      await textIs(page, '#radio .headline', /r1 sends .*\/s of .*\/s that it may/);
       await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
-      await holdAndResume(page);
+      await mapGrows(page);
+      await holdAndResume(page, r2StaysWhereItIs);
       await giveAndCallHome(page);
       await shot(page, 'virtual');
     });

@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import {readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join, resolve} from 'node:path';
-import {everythingIsNamed, folder, openBrowser, pageFolder, shot} from './browser.mjs';
+import {cardIsBesideItsThing, everythingIsNamed, folder, openBrowser, pageFolder, shot} from './browser.mjs';
 import {live, node, pair, registration, robot, robotNow, state} from './page/states.mjs';
 
 const {build} = createRequire(resolve(pageFolder, 'package.json'))('esbuild');
@@ -89,8 +89,21 @@ async function refreshLeavesAlone(page, send) {
   await kinds.evaluate((one) => (one.scrollLeft = 50));
   const status = now();
   send({live: {...status, radio: {...status.radio, sent: 901}}});
-  await page.waitForFunction(() => /Sends 901 B/.test(document.querySelector('#radio .headline').textContent));
+  await page.waitForFunction(() => /sends 901\sB/.test(document.querySelector('#radio .headline').textContent));
   assert.equal(await kinds.evaluate((one) => one.scrollLeft), 50);
+  await page.locator('#tab-why').click();
+}
+
+/** The first press asks, and the focus stays for the second. */
+async function callsHomeByKeyboard(page) {
+  await page.locator('#tab-fleet').click();
+  await page.getByRole('button', {name: 'Call all home'}).focus();
+  const orders = page.waitForRequest('**/operator/home');
+  await page.keyboard.press('Enter');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Really call all home?');
+  await page.keyboard.press('Enter');
+  assert.equal((await orders).method(), 'POST');
+  await page.waitForFunction(() => /Ordered: call all robots home/.test(document.getElementById('fleet').textContent));
   await page.locator('#tab-why').click();
 }
 
@@ -110,10 +123,42 @@ async function onADesk(page, send) {
     assert.match(await page.locator('#card').textContent(), new RegExp(`Node ${id}made`));
   }
   assert.ok(await page.locator('.cross').isVisible());
+  await callsHomeByKeyboard(page);
+  await page.locator('#canvas').focus();
   await page.keyboard.press('m');
   await page.keyboard.press('Enter');
   assert.equal(await page.locator('#said').textContent(), 'No point is at the cross.');
   await shot(page, 'made_up_desk');
+}
+
+/** What a finger is to hit; the label of a checkbox is part of it. */
+async function targetsAreLarge(page) {
+  await page.locator('.layers summary').click();
+  const small = await page.evaluate(() =>
+    [...document.querySelectorAll('#theme, .menu label, .close, .order, .group button, .chip')]
+      .map((one) => [one.outerHTML.slice(0, 60), one.getBoundingClientRect()])
+      .filter(([, box]) => box.width > 0 && Math.min(box.width, box.height) < 36)
+      .map(([html, box]) => `${html} ${box.width} x ${box.height}`),
+  );
+  assert.deepEqual(small, []);
+  await page.locator('.layers summary').click();
+}
+
+/** What is tapped in a list is described and seen, wherever the list is read; the list comes back with the close. */
+async function onAPhone(page) {
+  await page.locator('#tab-why').click();
+  const row = page.locator('.registration').nth(20);
+  await row.tap();
+  await cardIsBesideItsThing(page);
+  await targetsAreLarge(page);
+  await shot(page, 'made_up_phone_card');
+  await page.locator('#card .close').tap();
+  const top = await row.evaluate((one) => one.getBoundingClientRect().top);
+  assert.ok(top > 0 && top < 844, `the row that was tapped is at ${top} px`);
+  await page.locator('#tab-fleet').tap();
+  await targetsAreLarge(page);
+  await page.locator('.robot .link').last().tap();
+  await cardIsBesideItsThing(page);
 }
 
 try {
@@ -129,6 +174,7 @@ try {
     await narrowerThanTheWindow(phone.page, 390);
     await shot(phone.page, `made_up_phone_${tab}`);
   }
+  await onAPhone(phone.page);
   await phone.end();
   const refused = await open(browser, 390, 844, true);
   await refused.page.waitForFunction(() =>

@@ -4,7 +4,17 @@
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
 import {rmSync} from 'node:fs';
-import {everythingIsNamed, fleetmap, folder, noteErrors, openBrowser, pixelsOfMap, shot} from './browser.mjs';
+import {
+  cardIsBesideItsThing,
+  everythingIsNamed,
+  fleetmap,
+  folder,
+  noteErrors,
+  openBrowser,
+  pixelsOfMap,
+  shot,
+  spaced,
+} from './browser.mjs';
 import {makeRun, serve} from './shown_run.mjs';
 
 async function mapIsDrawn(page) {
@@ -37,12 +47,9 @@ async function visit(browser, url, width, height, state, check) {
   const page = await context.newPage();
   const said = noteErrors(page);
   const site = new URL('/', url).href;
-  page.on('request', (request) =>
-    assert.ok(
-      request.url().startsWith(site) || request.url().startsWith('data:') || request.url().startsWith('ws:'),
-      `asked another site: ${request.url()}`,
-    ),
-  );
+  const isAllowed = (to) => [site, site.replace(/^http/, 'ws'), 'data:'].some((one) => to.startsWith(one));
+  for (const kind of ['request', 'websocket'])
+    page.on(kind, (one) => assert.ok(isAllowed(one.url()), `asked another site: ${one.url()}`));
   await page.goto(url);
   await mapIsDrawn(page);
   assert.equal(
@@ -65,13 +72,13 @@ async function rejectedExplainsItself(page, state) {
     (one) => one.verdict === 'rejected' && [a, b].join() === [robotOf(one.target), robotOf(one.source)].sort().join(),
   );
   assert.ok(rejected.length > 0, `the run has no rejected registration of ${a} and ${b} to show`);
-  const answer = await page.locator('.answer').textContent();
+  const answer = await spaced(page.locator('.answer'));
   const why = new RegExp(`Why are ${a} and ${b} not joined\\?.*and none was accepted.*because inlier RMSE is`, 's');
   assert.match(answer, why);
   await page.locator('#verdict-rejected').click();
   await page.waitForFunction((n) => document.querySelectorAll('.registration').length === n, rejected.length);
   const row = page.locator('.registration').first();
-  assert.match(await row.textContent(), /rejected, because inlier RMSE is 0\.\d+ m, at most 0\.05 m is good/);
+  assert.match(await spaced(row), /rejected, because inlier RMSE is 0\.\d+ m, at most 0\.05 m is good/);
   await row.click();
   assert.match(await page.locator('#card').textContent(), /Rejected registration.*because inlier RMSE/s);
 }
@@ -121,8 +128,8 @@ async function planByKeyboard(page) {
   await page.keyboard.press('f');
   for (const [mode, ends] of [
     ['age', /\d:\d\d\d:\d\d/],
-    ['sigma', /\d+\.\d\d m\d+\.\d\d m/],
-    ['height', /-?\d+\.\d m-?\d+\.\d m/],
+    ['sigma', /1 sigma, horizontal: 0\.00\sm\d+\.\d\d\sm/],
+    ['height', /-?\d+\.\d\sm-?\d+\.\d\sm/],
   ]) {
     await page.locator(`[data-colour=${mode}]`).click();
     await mapIsDrawn(page);
@@ -158,7 +165,7 @@ async function measuresWhatTheScaleSays(page) {
   await page.keyboard.press('Escape');
   await page.locator('#measure').click();
   for (const x of [-100, 100]) await page.mouse.click(box.x + box.width / 2 + x, box.y + box.height / 2 + 30);
-  const measured = await page.locator('#card').textContent();
+  const measured = await spaced(page.locator('#card'));
   const plan = Number(measured.match(/on the plan([\d.]+) m/)[1]);
   const expected = await page.evaluate(() => {
     const bar = document.querySelector('#scale i').getBoundingClientRect().width,
@@ -241,10 +248,14 @@ async function onAPhone(page, state) {
   await page.locator('#layer-nodes').check();
   await page.locator('.layers summary').click();
   await rejectedExplainsItself(page, state);
+  await cardIsBesideItsThing(page);
+  await shot(page, 'phone_rejected');
   await page.locator('#tab-fleet').click();
   assert.equal(await page.locator('.robot').count(), state.robots.length);
   await page.locator('.robot').first().scrollIntoViewIfNeeded();
   await shot(page, 'phone_fleet');
+  await page.locator('.robot .link').first().click();
+  await cardIsBesideItsThing(page);
 }
 
 let server;

@@ -32,6 +32,8 @@ void add_mission(const agent::Navigator& navigator, FleetState& fleet) {
   }
   fleet.reports.insert_or_assign(fleet.self, mission.report());
   fleet.rows = mission.plan().mission.rows;
+  for (const planning::RobotAbility& robot : mission.plan().fleet)
+    fleet.starts.emplace(robot.id, robot.start.position);
   if (const auto reason = navigator.stop_reason()) fleet.stop_reason = to_string(*reason);
 }
 

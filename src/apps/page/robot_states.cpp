@@ -22,8 +22,17 @@ std::string words_of_row(const planning::Row& row, const MissionReport& report,
                 : fmt::format("is on its way to row {}", row.id);
 }
 
+/// Reports do not contain whether the robot has arrived, but its position.
+std::string words_of_way_home(const MissionReport& report, const std::optional<Eigen::Vector2d>& start) {
+  constexpr double kThere_m = 5.0;
+  if (!start) return "";
+  const double distance = (report.position - *start).norm();
+  return distance < kThere_m ? ": it is back at its start"
+                             : fmt::format(": {:.0f} m from its start", distance);
+}
+
 std::string words_of(const MissionReport& report, const std::vector<planning::Row>& rows,
-                     std::optional<double> heading) {
+                     std::optional<double> heading, const std::optional<Eigen::Vector2d>& start) {
   switch (report.state) {
     case MissionState::kDriving:
       return report.current < rows.size() ? words_of_row(rows[report.current], report, heading)
@@ -35,9 +44,9 @@ std::string words_of(const MissionReport& report, const std::vector<planning::Ro
     case MissionState::kStuck:
       return "is stuck and gave its rows away";
     case MissionState::kLowBattery:
-      return "drives home with a low battery";
+      return "drives home with a low battery" + words_of_way_home(report, start);
     case MissionState::kCalledHome:
-      return "was called home and gave its rows away";
+      return "was called home and gave its rows away" + words_of_way_home(report, start);
     case MissionState::kLost:
       break;
   }
@@ -50,10 +59,13 @@ std::string activity_now(const FleetState& fleet, const AgentId& id, bool is_hel
   if (is_held)
     return std::string("stands still: an operator holds it") + (called_home ? " on its way home" : "");
   const auto status = fleet.statuses.find(id);
-  if (report != fleet.reports.end())
+  if (report != fleet.reports.end()) {
+    const auto start = fleet.starts.find(id);
     return activity_of(
         report->second, fleet.rows,
-        status == fleet.statuses.end() ? std::nullopt : std::optional<double>(status->second.heading));
+        status == fleet.statuses.end() ? std::nullopt : std::optional<double>(status->second.heading),
+        start == fleet.starts.end() ? std::nullopt : std::optional(start->second));
+  }
   if (status == fleet.statuses.end()) return "was not heard yet";
   return status->second.busy ? "maps" : "has nothing left to map or to exchange";
 }
@@ -149,8 +161,8 @@ monitor::RobotNow robot_now(const FleetState& fleet, const AgentId& id) {
 }  // namespace
 
 std::string activity_of(const MissionReport& report, const std::vector<planning::Row>& rows,
-                        std::optional<double> heading) {
-  const std::string words = words_of(report, rows, heading);
+                        std::optional<double> heading, std::optional<Eigen::Vector2d> start) {
+  const std::string words = words_of(report, rows, heading, start);
   if (rows.empty()) return words;
   const messages::RowSet done(rows.size(), report.done.bytes());  // it may be of a longer mission
   const double share = static_cast<double>(done.count()) / static_cast<double>(rows.size());

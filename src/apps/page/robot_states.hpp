@@ -26,14 +26,16 @@ struct FleetState {
   std::map<LinkLog::Source, LinkLog::Heard> heard;
   std::map<AgentId, std::uint64_t> misbehaved;           ///< messages that contradict the rules
   std::vector<planning::Row> rows;                       ///< of the mission, in its order
+  std::map<AgentId, Eigen::Vector2d> starts;             ///< in the mission, ENU, m
   std::string stop_reason;                               ///< why this robot stands still; empty: it does not
   std::map<AgentId, std::vector<std::string>> problems;  ///< of the robots whose insides are known
   std::map<AgentId, std::vector<std::string>> totals;    ///< likewise, since they started
 };
 
-/// Activity of a robot by its last report, in words. `heading`: its last one, rad from east, if it is known.
+/// Activity of a robot by its last report, in words. `heading`: its last one, rad from east; `start`: where
+/// it began, ENU, m; each if it is known.
 std::string activity_of(const messages::MissionReport& report, const std::vector<planning::Row>& rows,
-                        std::optional<double> heading);
+                        std::optional<double> heading, std::optional<Eigen::Vector2d> start);
 
 /// Makes it a problem that a robot was heard, and is silent for longer than `lost_after` (s).
 void add_silence(double lost_after, monitor::RobotNow& robot);

@@ -2,7 +2,16 @@ import type {Vector3} from 'three';
 import {el} from './dom';
 import type {Edge} from './edges';
 import {geoText, toGeo} from './geodesy';
-import {comparable, duration, isNumber, kNoDistance, kNotGeoreferenced, metres, type State} from './model';
+import {
+  comparable,
+  duration,
+  type FleetNode,
+  isNumber,
+  kNoDistance,
+  kNotGeoreferenced,
+  metres,
+  type State,
+} from './model';
 
 const kVerdicts = {
   accepted: 'Accepted registration, whose alignment is not held here',
@@ -15,15 +24,7 @@ const kVerdicts = {
 export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTMLElement[] | null {
   const node = state.nodes.find((one) => one.id === id);
   if (!node) return null;
-  const rows: [string, string][] = [
-    ['made', `${duration(node.stamp_s ?? node.t)} after the first node, by ${node.robot}`],
-  ];
-  if (p) {
-    const enu = p.toArray().map((v) => v.toFixed(2));
-    if (node.floating === undefined)
-      rows.push(['ENU', `${enu.join(', ')} m`], ['WGS84', geoText(toGeo(state.origin, p.toArray()))]);
-    else rows.push(['on the map', `${enu.join(', ')} m`], ['on Earth', kNotGeoreferenced]);
-  }
+  const rows = [madeRow(node), ...(p ? placeRows(state, node, p) : [])];
   const sigma = node.gps_sigma_m;
   rows.push([
     'GPS',
@@ -38,6 +39,45 @@ export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTML
   const tied = state.alignments.filter((one) => one.i === id || one.j === id).length;
   rows.push(['alignments', String(tied)]);
   return [el('h2', {}, `Node ${id}`), table(rows)];
+}
+
+const madeRow = (node: FleetNode): [string, string] => [
+  'made',
+  `${duration(node.stamp_s ?? node.t)} after the first node, by ${node.robot}`,
+];
+
+function placeRows(state: State, node: FleetNode, p: Vector3): [string, string][] {
+  const enu = p.toArray().map((v) => v.toFixed(2));
+  if (node.floating !== undefined)
+    return [
+      ['on the map', `${enu.join(', ')} m`],
+      ['on Earth', kNotGeoreferenced],
+    ];
+  return [
+    ['ENU', `${enu.join(', ')} m`],
+    ['WGS84', geoText(toGeo(state.origin, p.toArray()))],
+  ];
+}
+
+/** Describes a point at `p` (m of ENU) of a node's submap. */
+export function pointCard(state: State, id: string, p: Vector3): HTMLElement[] | null {
+  const node = state.nodes.find((one) => one.id === id);
+  if (!node) return null;
+  return [el('h2', {}, `Point of the submap of node ${id}`), table([...placeRows(state, node, p), madeRow(node)])];
+}
+
+/** Describes the way of a robot from a node to the next one, `apart` (m) from it. */
+export function stepCard(state: State, from: string, to: string, apart: number | undefined): HTMLElement[] | null {
+  const [a, b] = [from, to].map((id) => state.nodes.find((one) => one.id === id));
+  if (!a || !b) return null;
+  const times = [a, b].map((node) => duration(node.stamp_s ?? node.t)).join(' to ');
+  const rows: [string, string][] = [
+    ['from', from],
+    ['to', to],
+    ['driven', `${times} after the first node`],
+  ];
+  if (apart !== undefined) rows.push(['length', metres(apart)]);
+  return [el('h2', {}, `Trajectory of ${a.robot}`), table(rows)];
 }
 
 /** Describes an edge whose nodes are `apart` (m) on the map, if both are there. */

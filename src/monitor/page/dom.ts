@@ -2,6 +2,11 @@ import {colourOf, type State} from './model';
 
 export type Child = Node | string | null | undefined | false;
 
+/** Joins numbers with their units, so that no line breaks between them. */
+export function unbroken(text: string): string {
+  return text.replace(/(\d) (?=%|σ|(?:[kM]?B|[ckm]?m|m?s|min|h|ppm|[kM])(?![\w-]))/g, '$1\u00a0');
+}
+
 export function el<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Record<string, string> = {},
@@ -9,7 +14,7 @@ export function el<K extends keyof HTMLElementTagNameMap>(
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) setAttribute(element, name, value);
-  for (const child of children) if (child) element.append(child);
+  for (const child of children) if (child) element.append(typeof child === 'string' ? unbroken(child) : child);
   return element;
 }
 

@@ -1,4 +1,4 @@
-import type {Alignment, State} from './model';
+import {type Alignment, registrationKeys, type State} from './model';
 
 /** A line between two nodes: an alignment, or a registration that gave none. */
 export interface Edge {
@@ -34,4 +34,17 @@ export function edgeOfRegistration(state: State, k: number): Edge {
   const edge = {a: target, b: source, registration: k};
   if (alignment !== null) return {...edge, kind: kindOf(state.alignments[alignment]), alignment};
   return {...edge, kind: verdict === 'rejected' || verdict === 'failed' ? 'rejected' : 'unused'};
+}
+
+/** The edge of an earlier state in a newer one, whose lists may have grown anywhere; undefined: it is gone. */
+export function edgeIn(state: State, before: State, edge: Edge): Edge | undefined {
+  if (edge.registration !== undefined) {
+    const k = registrationKeys(state).indexOf(registrationKeys(before)[edge.registration]);
+    return k < 0 ? undefined : edgeOfRegistration(state, k);
+  }
+  if (edge.alignment === undefined) return edge;
+  const same = ({i, j, by}: Alignment) => i === edge.a && j === edge.b && by === before.alignments[edge.alignment!].by;
+  const index = before.alignments.slice(0, edge.alignment).filter(same).length; // among those of the same nodes
+  const there = edgesOf(state).filter((one) => one.alignment !== undefined && same(state.alignments[one.alignment]));
+  return there[index];
 }

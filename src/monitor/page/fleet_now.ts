@@ -1,5 +1,17 @@
-import {ago, bytes, colourOf, linkName, metres, type Live, type RobotNow, type Sensor, type State} from './model';
-import {el} from './dom';
+import {
+  ago,
+  bytes,
+  colourOf,
+  counted,
+  linkName,
+  metres,
+  type Live,
+  type RobotNow,
+  type Sensor,
+  type State,
+} from './model';
+import {el, unbroken} from './dom';
+import {OrderButton} from './order_button';
 import {patch, setText} from './patch';
 
 interface Card {
@@ -9,8 +21,8 @@ interface Card {
   facts: HTMLElement;
   problems: HTMLElement;
   past: HTMLElement;
-  hold: HTMLButtonElement;
-  home: HTMLButtonElement;
+  hold: OrderButton;
+  home: OrderButton;
   give: HTMLElement;
   row: HTMLSelectElement;
   to: HTMLSelectElement;
@@ -32,13 +44,21 @@ export class FleetNow {
   private live?: Live;
   private since = 0;
   private lost = new Set<string>();
-  private pressed = new Set<HTMLButtonElement>();
+  private buttons: OrderButton[] = [];
 
   constructor() {
     this.all.append(
-      this.orderButton('Hold all', () => this.order('hold')),
-      this.orderButton('Call all home', () => this.order('home')),
-      this.orderButton('Resume all', () => this.order('resume')),
+      this.orderButton(
+        'Hold all',
+        () => this.order('hold'),
+        () => 'Really hold all?',
+      ).root,
+      this.orderButton(
+        'Call all home',
+        () => this.order('home'),
+        () => 'Really call all home?',
+      ).root,
+      this.orderButton('Resume all', () => this.order('resume')).root,
     );
     this.root.append(
       el('h2', {}, 'Now'),
@@ -63,14 +83,14 @@ export class FleetNow {
     }
     patch(this.sensors, [this.sensorTable(live)]);
     this.refresh();
-    for (const button of this.pressed) button.disabled = false;
-    this.pressed.clear();
+    for (const button of this.buttons) button.answered();
   }
 
   /** Also without a newer status: a robot that falls silent, or this one, turns to lost all the same. */
   private refresh(): void {
     if (!this.live) return;
     for (const robot of this.live.robots) this.showRobot(this.live, robot);
+    for (const button of this.buttons) button.refresh();
   }
 
   private cardOf(id: string): Card {
@@ -82,8 +102,12 @@ export class FleetNow {
       problems = el('ul', {class: 'problems'}),
       past = el('ul', {class: 'past', 'aria-label': `Past problems of ${id}`});
     const robot = () => this.live?.robots.find((one) => one.id === id);
-    const hold = this.orderButton('Hold', () => this.order(robot()?.ordered_to_hold ? 'resume' : 'hold', id));
-    const home = this.orderButton('Call home', () => this.order(robot()?.called_home ? 'resume' : 'home', id));
+    const hold = this.orderButton('', () => this.order(robot()?.ordered_to_hold ? 'resume' : 'hold', id));
+    const home = this.orderButton(
+      '',
+      () => this.order(robot()?.called_home ? 'resume' : 'home', id),
+      () => (robot()?.called_home ? undefined : 'Really call home?'),
+    );
     const row = el('select', {'aria-label': `Row of ${id}`}),
       to = el('select', {'aria-label': `Robot that drives the row of ${id}`});
     const give = el(
@@ -94,12 +118,16 @@ export class FleetNow {
       ' to ',
       to,
       ' ',
-      this.orderButton('Give', () => this.order('give', id, {row: row.value, ...(to.value ? {to: to.value} : {})})),
+      this.orderButton(
+        'Give',
+        () => this.order('give', id, {row: row.value, ...(to.value ? {to: to.value} : {})}),
+        () => `Really give row ${row.value}?`,
+      ).root,
     );
     const article = el(
       'article',
       {class: 'robot now', 'data-robot': id, 'aria-label': `${id} now`},
-      el('h3', {}, id, badge, hold, home),
+      el('h3', {}, id, badge, hold.root, home.root),
       activity,
       problems,
       past,
@@ -133,14 +161,21 @@ export class FleetNow {
       card.past,
       robot.past_problems.map((one) => pastWords(one, later)),
     );
-    card.hold.hidden = !live.operated || !robot.driven;
-    setText(card.hold, robot.ordered_to_hold ? 'Resume' : 'Hold');
-    card.hold.setAttribute('aria-label', holdLabel(robot));
+    this.showOrders(live, robot, card);
+    if (lost && !this.lost.has(robot.id)) this.said.textContent = `${robot.id} is lost.`;
+    if (lost) this.lost.add(robot.id);
+    else this.lost.delete(robot.id);
+  }
+
+  private showOrders(live: Live, robot: RobotNow, card: Card): void {
+    const ordered = live.operated && robot.driven;
+    card.hold.root.hidden = !ordered;
+    card.hold.label(robot.ordered_to_hold ? 'Resume' : 'Hold', holdLabel(robot));
     // If it is held on its way home, the other button lets it go on home.
-    card.home.hidden = card.hold.hidden || (robot.called_home && robot.ordered_to_hold);
-    setText(card.home, robot.called_home ? 'Resume' : 'Call home');
-    card.home.setAttribute('aria-label', robot.called_home ? `Resume ${robot.id}` : `Call ${robot.id} home`);
-    card.give.hidden = card.hold.hidden || robot.rows.length === 0 || live.robots.length < 2;
+    card.home.root.hidden = !ordered || (robot.called_home && robot.ordered_to_hold);
+    if (robot.called_home) card.home.label('Resume', `Resume ${robot.id}`);
+    else card.home.label('Call home', `Call ${robot.id} home`);
+    card.give.hidden = !ordered || robot.rows.length === 0 || live.robots.length < 2;
     setOptions(
       card.row,
       robot.rows.map((row) => [String(row), String(row)]),
@@ -149,20 +184,22 @@ export class FleetNow {
       ['', 'any other robot'],
       ...live.robots.filter((one) => one.id !== robot.id).map((one): [string, string] => [one.id, one.id]),
     ]);
-    if (lost && !this.lost.has(robot.id)) this.said.textContent = `${robot.id} is lost.`;
-    if (lost) this.lost.add(robot.id);
-    else this.lost.delete(robot.id);
   }
 
   private facts(robot: RobotNow, isSelf: boolean, later: number): string {
     const facts: string[] = [];
+    // A link is silent while the messages go by the other one, which is no fault.
     const heard = robot.heard.map((one) => `${ago(one.seconds_ago + later)} ago by ${linkName(one.link)}`);
-    if (!isSelf && heard.length > 0) facts.push(`last heard ${heard.join(', ')}`);
+    if (!isSelf && heard.length > 0) facts.push(`last heard ${heard.join(', before that ')}`);
     if (robot.battery !== null) facts.push(`battery ${Math.round(100 * robot.battery)} %`);
-    if (robot.sigma_m !== null) facts.push(`position known to ${metres(robot.sigma_m)} (1 σ)`);
-    if (robot.clock) facts.push(clockWords(robot.clock));
+    if (robot.sigma_m !== null) facts.push(`position known to ${metres(robot.sigma_m)} (1 σ) now, by its EKF`);
+    const measured = isSelf && this.live?.sensors.find(({name}) => name === robot.clock?.sensor)?.clock_behind_s;
+    if (robot.clock) facts.push(clockWords(robot.clock, measured || undefined));
     if (robot.nodes > 0)
-      facts.push(`holds ${robot.nodes} nodes, ${robot.submaps} submaps, ${robot.alignments} alignments`);
+      facts.push(
+        `holds ${counted(robot.nodes, 'node')}, ${counted(robot.submaps, 'submap')}, ` +
+          counted(robot.alignments, 'alignment'),
+      );
     if (robot.backlog_bytes > 0) facts.push(`${bytes(robot.backlog_bytes)} wait for its radio`);
     const text = facts.join('; ');
     return text && `${text[0].toUpperCase()}${text.slice(1)}.`;
@@ -199,14 +236,14 @@ export class FleetNow {
     );
   }
 
-  /** Disabled from an order until the next status, since the robot's may call for another order then. */
-  private orderButton(text: string, order: () => Promise<boolean>): HTMLButtonElement {
-    const button = el('button', {type: 'button', class: 'order'}, text);
-    button.onclick = async () => {
-      button.disabled = true;
-      if (await order()) this.pressed.add(button);
-      else button.disabled = false;
-    };
+  private orderButton(
+    text: string,
+    order: () => Promise<boolean>,
+    question: () => string | undefined = () => undefined,
+  ): OrderButton {
+    const button = new OrderButton(order, question, (words) => setText(this.answer, words));
+    button.label(text);
+    this.buttons.push(button);
     return button;
   }
 
@@ -238,7 +275,7 @@ export class FleetNow {
 
 function setItems(list: HTMLElement, texts: string[]): void {
   list.hidden = texts.length === 0;
-  if (list.textContent !== texts.join('')) list.replaceChildren(...texts.map((text) => el('li', {}, text)));
+  if (list.textContent !== unbroken(texts.join(''))) list.replaceChildren(...texts.map((text) => el('li', {}, text)));
 }
 
 /** A problem whose cause has ended. The page's own clock may be another than the robots'. */
@@ -253,11 +290,13 @@ function holdLabel(robot: RobotNow): string {
   return robot.called_home ? `Resume ${robot.id} on its way home` : `Resume ${robot.id}`;
 }
 
-function clockWords(clock: {sensor: string; behind_s: number}): string {
-  const off = Math.abs(clock.behind_s);
+/** A status has a clock's offset within a factor of 1.4; `measured` is the offset itself, where it is known here. */
+function clockWords(clock: {sensor: string; behind_s: number}, measured?: number): string {
+  const behind = measured ?? clock.behind_s,
+    off = Math.abs(behind);
   if (off < 0.01) return 'the clocks of its sensors agree';
   const time = off < 1 ? `${Math.round(1000 * off)} ms` : ago(off);
-  return `the clock of its ${clock.sensor} is about ${time} ${clock.behind_s < 0 ? 'ahead' : 'behind'}`;
+  return `the clock of its ${clock.sensor} is ${measured ? '' : 'about '}${time} ${behind < 0 ? 'ahead' : 'behind'}`;
 }
 
 /** Keeps what is selected as long as it is still there; leaves a menu alone that shows the same already. */

@@ -1,7 +1,7 @@
 import uPlot from 'uplot';
 import {type Actions, type Child, dot, el} from './dom';
 import {patch} from './patch';
-import {colourOf, duration, isNumber, type Live, metres, placeMark, type Robot, type State} from './model';
+import {colourOf, counted, duration, isNumber, type Live, metres, placeMark, type Robot, type State} from './model';
 
 /** A robot's number of nodes at each of `times`, which ascend. */
 function nodesUntil(state: State, robot: Robot, times: number[]): number[] {
@@ -70,7 +70,9 @@ export class FleetPanel {
             'td',
             {
               colspan: String(state.robots.length),
-              title: `${robot.id} lacks ${all - robot.nodes} nodes and ${all - robot.submaps} submaps of ${all} in all`,
+              title:
+                `${robot.id} lacks ${counted(all - robot.nodes, 'node')} and ` +
+                `${counted(all - robot.submaps, 'submap')} of ${all} in all`,
             },
             el(
               'div',
@@ -89,7 +91,7 @@ export class FleetPanel {
     const words: Child[] = [];
     if (robot.nodes > 0)
       words.push(
-        `${robot.nodes} nodes on ${metres(robot.path_m)} of path, `,
+        `${counted(robot.nodes, 'node')} on ${metres(robot.path_m)} of path, `,
         `from ${duration(robot.first_s ?? 0)} to ${duration(robot.last_s ?? 0)}`,
       );
     else words.push('made no node that is held here');
@@ -101,13 +103,11 @@ export class FleetPanel {
       facts.append(
         ' Last at ',
         button,
-        isNumber(robot.sigma_m) ? `, known to ${(100 * robot.sigma_m).toFixed(1)} cm (1 σ).` : '.',
+        isNumber(robot.sigma_m) ? `, known to ${metres(robot.sigma_m)} (1 σ) in the graph.` : '.',
       );
     }
     if (robot.alignments_used !== undefined)
-      facts.append(
-        ` ${robot.alignments_used} of its alignments are in use, ${robot.alignments_rejected ?? 0} contradict.`,
-      );
+      facts.append(alignmentWords(robot.alignments_used, robot.alignments_rejected ?? 0));
     const joined = state.pairs
       .filter((pair) => pair.joined && (pair.a === robot.id || pair.b === robot.id))
       .map((pair) => (pair.a === robot.id ? pair.b : pair.a));
@@ -229,3 +229,7 @@ export class FleetPanel {
       this.plot.setSize({width: Math.max(200, this.root.clientWidth), height: 170});
   }
 }
+
+const alignmentWords = (used: number, rejected: number) =>
+  ` ${used} of its alignments ${used === 1 ? 'is' : 'are'} in use, ` +
+  `${rejected} ${rejected === 1 ? 'contradicts' : 'contradict'}.`;

@@ -1,7 +1,8 @@
+import type {Vector3} from 'three';
 import type {Edge} from './edges';
 
-/** A choice on the map. */
-export type Hit = {node: string} | {edge: Edge};
+/** A choice on the map: a node, also by a point that was seen from it or by the way from it to the `next`; an edge. */
+export type Hit = {node: string; point?: Vector3; next?: string} | {edge: Edge};
 
 export interface Pixel {
   x: number;
@@ -9,8 +10,8 @@ export interface Pixel {
 }
 
 /**
- * The node, else the edge, within `reach` pixels of a place. `nodes`: their pixels; a node behind the camera has none,
- * and edges to nodes that are not among them are not there.
+ * The node, else the edge, else the step of a trajectory within `reach` pixels of a place. `nodes`: their pixels; a node
+ * behind the camera has none, and edges to nodes that are not among them are not there.
  */
 export function hitAt(
   at: Pixel,
@@ -18,6 +19,7 @@ export function hitAt(
   nodesShown: boolean,
   edges: readonly Edge[],
   reach: number,
+  steps: readonly [string, string][] = [],
 ): Hit | undefined {
   let best: Hit | undefined;
   let nearest = reach;
@@ -32,6 +34,12 @@ export function hitAt(
     const a = nodes.get(edge.a);
     const b = nodes.get(edge.b);
     if (a && b) take(distanceToSegment(at, a, b), {edge});
+  }
+  if (best) return best;
+  for (const [node, next] of steps) {
+    const a = nodes.get(node);
+    const b = nodes.get(next);
+    if (a && b) take(distanceToSegment(at, a, b), {node, next});
   }
   return best;
 }

@@ -32,8 +32,37 @@ export function rampEnds({heights, range}: Picture, colour: ColourMode): string[
   return ['weak', 'strong'];
 }
 
-/** The lines between robots on the map, as the robot `self` that shows the page hears the others. */
+const kRampNames: Record<ColourMode, string> = {
+  robot: '',
+  height: 'Height',
+  intensity: 'Intensity',
+  age: 'Time',
+  sigma: 'Place, 1 sigma, horizontal',
+};
+
+/** The ramp of colours with its name, and the words at both ends; null where robots have colours of their own. */
+export function rampKey(picture: Picture, colour: ColourMode): HTMLElement | null {
+  if (colour === 'robot') return null;
+  const [low, high] = rampEnds(picture, colour);
+  return el('span', {class: 'ramp'}, `${kRampNames[colour]}: `, low, el('i', {class: 'turbo'}), high);
+}
+
+const kEdgeNames = {used: 'alignment in use', unused: 'alignment not used', rejected: 'rejected registration'};
+
+/** The lines between nodes that are on the map. */
+export function edgeKeys(kinds: readonly (keyof typeof kEdgeNames)[]): HTMLElement[] {
+  return kinds.map((kind) => el('span', {}, el('i', {class: `key ${kind}`}), kEdgeNames[kind]));
+}
+
+/**
+ * The lines between robots on the map, as the robot `self` that shows the page hears the others. It does not know how
+ * these hear each other.
+ */
 export function linkKeys(self: string): HTMLElement[] {
   const key = (kind: string, words: string) => el('span', {}, el('i', {class: `key link-${kind}`}), words);
-  return [key('good', `heard by ${self}`), key('poor', 'loses a fifth, or late'), key('silent', 'lost')];
+  return [
+    key('good', `heard by ${self}, whose links alone are drawn`),
+    key('poor', 'loses a fifth, or late'),
+    key('silent', 'lost'),
+  ];
 }

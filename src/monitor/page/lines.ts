@@ -17,6 +17,10 @@ export interface Marks {
 }
 
 const kSelected = '#ffffff';
+const kDark = '#10161d';
+
+/** Dashes of an edge, and the share of it that they cover: no trajectory is dashed, whatever its colour. */
+const kDashes = {used: [5, 0.8], unused: [5, 0.5], rejected: [9, 0.35]} as const;
 
 const rgb = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);
 
@@ -49,11 +53,36 @@ void main() {
   gl_FragColor = vec4(colour, 1.0 - smoothstep(edge - 0.8, edge, r));
 }`;
 
+/** The nodes of each robot and session from one to the next in time. */
+export function stepsOf<T extends {node: FleetNode}>(nodes: readonly T[]): [T, T][] {
+  const key = ({node}: T) => `${node.robot} ${node.session}`;
+  const sorted = [...nodes].sort((a, b) => a.node.t - b.node.t);
+  const last = new Map<string, T>();
+  const steps: [T, T][] = [];
+  for (const one of sorted) {
+    const before = last.get(key(one));
+    if (before) steps.push([before, one]);
+    last.set(key(one), one);
+  }
+  return steps;
+}
+
+/** Pieces of segments from end to end, `share` of each. */
+export function dashed(ends: readonly number[], [dashes, share]: readonly [number, number]): number[] {
+  const pieces: number[] = [];
+  const period = 1 / (dashes - 1 + share); // a dash is at both ends
+  for (let k = 0; k < ends.length; k += 6) {
+    const at = (s: number) => [0, 1, 2].map((i) => ends[k + i] + s * (ends[k + 3 + i] - ends[k + i]));
+    for (let n = 0; n < dashes; ++n) pieces.push(...at(n * period), ...at((n + share) * period));
+  }
+  return pieces;
+}
+
 /** Trajectories, edges and nodes, in front of all points. */
 export class Lines {
   readonly strokes: Stroke[] = []; // the same without edges and nodes, for drawStrokes()
   private lines: WideLines[] = [];
-  private edges: WideLines[] = []; // white ones below others
+  private edges: WideLines[] = []; // wider ones below others
   private dots?: THREE.Points;
   private size = new THREE.Vector2(1, 1);
 
@@ -76,15 +105,15 @@ export class Lines {
       const positions = marks.edges
         .filter((edge) => edge.kind === kind)
         .flatMap((edge) => [...marks.place(edge.a)!.toArray(), ...marks.place(edge.b)!.toArray()]);
-      this.edge(positions, 4.5, 0.55);
-      this.segments(positions, kEdgeColours[kind], 2.5, 1);
+      this.edge(positions, kDark, 4.5, 0.55);
+      this.segments(dashed(positions, kDashes[kind]), kEdgeColours[kind], 2.5, 1);
     }
     const selected = marks.selected;
     if (selected && 'edge' in selected) {
       const a = marks.place(selected.edge.a),
         b = marks.place(selected.edge.b);
       if (a && b) {
-        this.segments([...a.toArray(), ...b.toArray()], '#10161d', 9, 1);
+        this.segments([...a.toArray(), ...b.toArray()], kDark, 9, 1);
         this.segments([...a.toArray(), ...b.toArray()], kSelected, 6, 1);
         this.segments([...a.toArray(), ...b.toArray()], kEdgeColours[selected.edge.kind], 3, 1);
       }
@@ -110,21 +139,15 @@ export class Lines {
 
   /** From node to node of one session. */
   private path(marks: Marks, robot: string): void {
-    const positions: number[] = [];
-    const own = marks.nodes
-      .filter(({node}) => node.robot === robot)
-      .sort((a, b) => a.node.session - b.node.session || a.node.t - b.node.t);
-    for (let k = 1; k < own.length; ++k) {
-      if (own[k].node.session === own[k - 1].node.session)
-        positions.push(...own[k - 1].p.toArray(), ...own[k].p.toArray());
-    }
-    this.edge(positions, 5, 0.7);
+    const own = marks.nodes.filter(({node}) => node.robot === robot);
+    const positions = stepsOf(own).flatMap(([a, b]) => [...a.p.toArray(), ...b.p.toArray()]);
+    this.edge(positions, '#ffffff', 5, 0.7);
     this.segments(positions, colourOf(marks.state, robot), 3, 1);
   }
 
   /** Below lines that are added next. */
-  private edge(positions: number[], width: number, opacity: number): void {
-    this.segments(positions, '#ffffff', width, opacity);
+  private edge(positions: number[], colour: string, width: number, opacity: number): void {
+    this.segments(positions, colour, width, opacity);
     if (positions.length > 0) this.edges.push(this.lines.at(-1)!);
   }
 

@@ -1,20 +1,21 @@
-import {edgeCard, nodeCard} from './cards';
+import {CardBox} from './card_box';
 import {RobotColours} from './colours';
 import {actOnKey} from './keys';
 import {follow} from './live';
 import type {Hit} from './hit';
-import {linkKeys, type Picture, rampEnds, scaleLength} from './legend';
+import {edgeKeys, linkKeys, type Picture, rampEnds, rampKey, scaleLength} from './legend';
 import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
-import {type Edge, edgeOfRegistration} from './edges';
+import {edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, duration, type FleetNode, placeMark, type State} from './model';
+import {colourOf, count, counted, duration, type FleetNode, placeMark, type State} from './model';
 import {cutGaps, gapNote} from './times';
 import {setText} from './patch';
 import {FleetNow} from './fleet_now';
 import {RobotMarks} from './robot_marks';
 import {PairView} from './pair_view';
 import {el} from './dom';
+import {Selection} from './selection';
 import {FleetPanel} from './fleet_panel';
 import {WhyPanel} from './why_panel';
 import {RadioPanel} from './radio';
@@ -34,10 +35,15 @@ try {
   byId('no-map').textContent =
     'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
 }
-const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
+const measure =
+  map &&
+  new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, (content) => card.show(content));
 const marks = map && new RobotMarks(map, document.getElementById('robots') as unknown as SVGSVGElement);
 const pairView = map && new PairView(map);
-const actions = {selectNode: (id: string) => select({node: id}, true), selectRegistration};
+const actions = {
+  selectNode: (id: string) => select({node: id}, true),
+  selectRegistration: (index: number) => select({edge: edgeOfRegistration(state!, index)}, true),
+};
 const why = new WhyPanel(byId('why'), actions);
 const now = new FleetNow();
 const fleet = new FleetPanel(byId('fleet'), actions, now.root);
@@ -50,14 +56,20 @@ function showState(next: State): void {
   next.colours = colours.of(next.robots.map((robot) => robot.id));
   const gaps = cutGaps(next);
   if (gaps > 0) next.notes.push(gapNote(gaps));
+  const before = state;
   state = next;
   document.title = `${next.title} – fleetmap`;
   setText(byId('title'), next.title);
   setText(
     byId('summary'),
-    `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`,
+    [
+      counted(next.robots.length, 'robot'),
+      counted(next.nodes.length, 'node'),
+      counted(next.alignments.length, 'alignment'),
+    ].join(' · '),
   );
   map?.show(next);
+  selection.refresh(before, next);
   setTime();
   why.show(next);
   fleet.show(next);
@@ -68,7 +80,7 @@ follow({
   onLive(live) {
     byId('tab-radio').hidden = false;
     colours.of(live.robots.map((robot) => robot.id)); // also of those that are not heard yet
-    if (!state) setText(byId('summary'), `${live.robots.length} robots · no nodes yet`);
+    if (!state) setText(byId('summary'), `${counted(live.robots.length, 'robot')} · no nodes yet`);
     now.show(live, state);
     fleet.showNow(live);
     why.showNow(live);
@@ -84,48 +96,13 @@ follow({
 
 // Selection.
 
-let selectedNode: string | undefined;
-function select(hit: Hit | undefined, go = false): void {
-  selectedNode = hit && 'node' in hit ? hit.node : undefined;
-  map?.select(hit);
-  pairView?.end();
-  if (!hit || !state) return showCard(null);
-  if ('node' in hit) return selectNode(hit.node, go);
-  selectEdge(hit.edge, go);
-}
-
-function selectNode(id: string, go: boolean): void {
-  const p = map?.place(id);
-  showCard(nodeCard(state!, id, p));
-  if (go && p) map?.eye.goTo(p);
-}
-
-function selectEdge(edge: Edge, go: boolean): void {
-  const a = map?.place(edge.a),
-    b = map?.place(edge.b);
-  const both = pairView?.buttons(state!, edge);
-  showCard([...edgeCard(state!, edge, a && b?.distanceTo(a)), ...(both ? [both] : [])]);
-  if (edge.registration !== undefined) why.mark(edge.registration);
-  if (go && a && b) map?.eye.goTo(a.clone().add(b).multiplyScalar(0.5));
-}
-
-function selectRegistration(index: number): void {
-  why.mark(index);
-  select({edge: edgeOfRegistration(state!, index)}, true);
-}
-
-function showCard(content: HTMLElement[] | null): void {
-  const card = byId('card');
-  card.hidden = content === null;
-  if (!content) return card.replaceChildren();
-  const close = el('button', {type: 'button', class: 'quiet close', 'aria-label': 'Close'}, '✕');
-  close.onclick = () => {
-    measure?.stop();
-    pressed('measure', false);
-    select(undefined);
-  };
-  card.replaceChildren(close, ...content);
-}
+const card = new CardBox(byId('card'), byId('map'), () => {
+  measure?.stop();
+  pressed('measure', false);
+  select(undefined);
+});
+const selection = new Selection(card, map, pairView, (index) => why.mark(index));
+const select = (hit: Hit | undefined, fromList = false) => selection.select(state, hit, fromList);
 
 // The map's tools.
 
@@ -184,7 +161,7 @@ const small = matchMedia('(pointer: coarse)').matches || Math.min(screen.width, 
 budget.value = String(Math.log10(small ? 300_000 : 1_500_000));
 const setBudget = () => {
   const points = Math.round(10 ** Number(budget.value));
-  byId('budget-value').textContent = count(points);
+  setText(byId('budget-value'), count(points));
   if (map) map.budget = points;
 };
 budget.oninput = setBudget;
@@ -221,8 +198,10 @@ function showPicture(picture: Picture): void {
   }
   canvas.dataset.drawn = String(picture.drawn);
   if (picture.moving) return;
-  byId('drawn').textContent =
-    `${count(picture.drawn)} of ${count(picture.total)} points drawn${picture.loading ? ', loading' : ''}`;
+  setText(
+    byId('drawn'),
+    `${count(picture.drawn)} of ${count(picture.total)} points drawn${picture.loading ? ', loading' : ''}`,
+  );
   canvas.dataset.loading = String(picture.loading);
   canvas.setAttribute(
     'aria-label',
@@ -235,14 +214,18 @@ function showPicture(picture: Picture): void {
 function showScale(picture: Picture): void {
   const length = scaleLength(picture.metresPerPixel);
   byId('scale').querySelector('i')!.style.width = `${length / picture.metresPerPixel}px`;
-  byId('scale').querySelector('span')!.textContent = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
+  const text = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
+  setText(byId('scale').querySelector('span')!, text);
 }
 
 let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
   const ends = rampEnds(picture, colour);
-  const key = [colour, shownBy, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
+  const kinds = (['used', 'unused', 'rejected'] as const).filter(
+    (kind) => map?.layers[kind] && map.edges.some((edge) => edge.kind === kind),
+  );
+  const key = [colour, shownBy, ...kinds, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
@@ -253,9 +236,9 @@ function showLegend(picture: Picture): void {
       placeMark(robot) ? `${robot.id} (${placeMark(robot)})` : robot.id,
     ),
   );
-  const ramp = el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]);
+  const ramp = rampKey(picture, colour);
   const links = shownBy ? linkKeys(shownBy) : [];
-  byId('legend').replaceChildren(...robots, ...links, ...(colour === 'robot' ? [] : [ramp]));
+  byId('legend').replaceChildren(...robots, ...edgeKeys(kinds), ...links, ...(ramp ? [ramp] : []));
 }
 
 // Pointer and keys.
@@ -268,7 +251,7 @@ canvas.addEventListener('pointerup', (event) => {
   if (!map || !down || Math.hypot(event.offsetX - down.x, event.offsetY - down.y) > 5) return;
   const reach = event.pointerType === 'touch' ? 18 : 10;
   if (measure?.active) return measure.click(event.offsetX, event.offsetY, reach, state!.origin);
-  select(map.hitAt(event.offsetX, event.offsetY, reach));
+  select(map.pick(event.offsetX, event.offsetY, reach));
 });
 canvas.addEventListener('pointermove', (event) => {
   if (!map || event.buttons !== 0) return;
@@ -300,7 +283,7 @@ function pickAtCross(): void {
   const x = canvas.clientWidth / 2,
     y = canvas.clientHeight / 2;
   if (!measure?.active) {
-    const hit = map.hitAt(x, y, kCrossReach);
+    const hit = map.pick(x, y, kCrossReach);
     select(hit);
     return void say(hit ? '' : 'Nothing is at the cross.');
   }
@@ -313,7 +296,7 @@ function stepNode(by: 1 | -1): void {
     .filter(({id}) => map?.place(id))
     .sort((a, b) => (a.robot === b.robot ? a.t - b.t : a.robot < b.robot ? -1 : 1));
   if (nodes.length === 0) return;
-  const at = nodes.findIndex(({id}) => id === selectedNode);
+  const at = nodes.findIndex(({id}) => id === selection.node);
   const next = at < 0 ? (by > 0 ? 0 : nodes.length - 1) : (at + by + nodes.length) % nodes.length;
   select({node: nodes[next].id}, true);
 }

@@ -13,9 +13,11 @@ import {type Picked, type Place, placeOf, pointAt} from './picking';
 import {Shading} from './shading';
 import {matrixOf} from './submap';
 import {Submaps} from './submaps';
-import {Lines} from './lines';
+import {Lines, stepsOf} from './lines';
 
 export type Layer = 'points' | 'paths' | 'nodes' | 'used' | 'unused' | 'rejected';
+
+const kSigmas_m: [number, number] = [0, 0.5]; // at least on the ramp, so that a centimetre is not its whole span
 
 /** WebGL on the canvas. */
 function webGl(canvas: HTMLCanvasElement, antialias: boolean): THREE.WebGLRenderer {
@@ -176,12 +178,21 @@ export class FleetMap {
     return placeOf(p, this.eye.camera, this.canvas);
   }
 
-  /** The node, else the edge, at a pixel. */
+  /** The node, else the edge, else the step of a trajectory at a pixel. */
   hitAt(x: number, y: number, reach: number): Hit | undefined {
     const there = [...this.nodes.values()].filter(({node}) => this.isThere(node.id));
     const pixels = new Map(there.map(({node, p}) => [node.id, this.project(p)]));
     const shown = this.edges.filter((edge) => this.layers[edge.kind]);
-    return hitAt({x, y}, pixels, this.layers.nodes, shown, reach);
+    const steps = this.layers.paths ? stepsOf(there).map(([a, b]): [string, string] => [a.node.id, b.node.id]) : [];
+    return hitAt({x, y}, pixels, this.layers.nodes, shown, reach, steps);
+  }
+
+  /** As hitAt(), else the point and the node that it was seen from; looks at all points, which takes its time. */
+  pick(x: number, y: number, reach: number): Hit | undefined {
+    const hit = this.hitAt(x, y, reach);
+    const at = hit || !this.layers.points ? undefined : this.pointAt(x, y, reach);
+    const of = at && [...this.nodes.values()].find(({node}) => node.submap === at.submap.hash);
+    return of && at ? {node: of.node.id, point: at.p} : hit;
   }
 
   pointAt(x: number, y: number, reach: number): Picked | undefined {
@@ -263,7 +274,10 @@ export class FleetMap {
     if (this.ramp?.key !== key)
       this.ramp = {
         key,
-        range: this.submaps.putOnRamp((one) => (this.mode === 'age' ? one.t : one.sigma_m), this.until),
+        range:
+          this.mode === 'age'
+            ? this.submaps.putOnRamp((one) => one.t, this.until)
+            : this.submaps.putOnRamp((one) => one.sigma_m, this.until, kSigmas_m),
       };
     return this.ramp.range;
   }

@@ -144,6 +144,9 @@ export function count(n: number): string {
   return n.toLocaleString('en');
 }
 
+/** "1 node", "2 nodes" */
+export const counted = (n: number, what: string) => `${n} ${what}${n === 1 ? '' : 's'}`;
+
 export function metres(m: number | null | undefined): string {
   if (!isNumber(m)) return 'an unknown length';
   return m < 10 ? `${m.toFixed(2)} m` : m < 1000 ? `${m.toFixed(1)} m` : `${(m / 1000).toFixed(2)} km`;

@@ -1,13 +1,14 @@
 // Brings elements up to date in place, so that focus, open menus and scrolling stay, and a screen reader does not read
 // again what has not changed.
 
-import {setAttribute} from './dom';
+import {setAttribute, unbroken} from './dom';
 
 const isElement = (node: Node): node is HTMLElement => node.nodeType === 1;
 const keyOf = (node: Node) => (isElement(node) ? node.id || node.getAttribute('data-key') || '' : '');
 
 export function setText(element: Element, text: string): void {
-  if (element.textContent !== text) element.textContent = text;
+  const shown = unbroken(text);
+  if (element.textContent !== shown) element.textContent = shown;
 }
 
 /**

@@ -1,30 +1,40 @@
-import uPlot from 'uplot';
-import {ago, bytes, linkName, type FleetMaps, type Live, type Radio} from './model';
+import {ago, bytes, counted, linkName, type FleetMaps, type Live, type Radio} from './model';
 import {el} from './dom';
 import {patch, setText} from './patch';
+import {RateChart} from './rate_chart';
 
-const kSeconds = 300;
-
-/** Traffic of the radio against the budget, by kind and by robot, and what waits. */
+/** Traffic of the robot that shows the page, on its radio against the budget and on Wi-Fi, and what waits. */
 export class RadioPanel {
   private headline = el('p', {class: 'headline', 'data-of': 'budget'});
+  private wifi = el('p', {class: 'facts', 'data-of': 'wifi'});
   private access = el('p', {class: 'facts', 'data-of': 'access'});
   private maps = el('p', {class: 'facts', 'data-of': 'maps'});
   private fleetMaps = el('p', {class: 'facts', 'data-of': 'fleet-maps'});
-  private chart = el('div', {class: 'chart'});
+  private title = el('h2');
+  private wifiTitle = el('h2');
+  private chart = new RateChart(
+    'Bytes per second sent and received over the long-range radio, and what may be sent; ' +
+      'the present numbers are in the first sentence',
+    () => this.width(),
+  );
+  private wifiChart = new RateChart(
+    'Bytes per second sent and received over Wi-Fi; the present numbers are in the second sentence',
+    () => this.width(),
+  );
   private tables = el('div');
-  private plot?: uPlot;
   private begin?: number;
-  private points: [number[], number[], number[], number[]] = [[], [], [], []];
 
   constructor(private root: HTMLElement) {
     root.append(
       this.headline,
+      this.wifi,
       this.access,
       this.maps,
       this.fleetMaps,
-      el('h2', {}, 'Bytes per second on the radio'),
-      this.chart,
+      this.title,
+      this.chart.root,
+      this.wifiTitle,
+      this.wifiChart.root,
       this.tables,
     );
     new ResizeObserver(() => this.resize()).observe(root);
@@ -34,25 +44,27 @@ export class RadioPanel {
     const radio = live.radio,
       now = performance.now() / 1000;
     this.begin ??= now;
-    [now - this.begin, radio.sent, radio.received, radio.share].forEach((value, k) => this.points[k].push(value));
-    while (this.points[0].length > kSeconds) for (const values of this.points) values.shift();
-    const share = radio.share > 0 ? Math.round((100 * radio.sent) / radio.share) : 0;
+    const wifi = onWifi(radio);
+    this.chart.add(now - this.begin, radio.sent, radio.received, radio.share);
+    this.wifiChart.add(now - this.begin, wifi.sent, wifi.received);
+    setText(this.headline, radioText(live));
     setText(
-      this.headline,
-      `Sends ${bytes(radio.sent)}/s of ${bytes(radio.share)}/s that it may (${share} %); ` +
-        `all robots together may send ${bytes(radio.fleet_budget)}/s. ${queueText(radio)}`,
+      this.wifi,
+      `Wi-Fi: ${live.self} sends ${bytes(wifi.sent)}/s and receives ${bytes(wifi.received)}/s, ` +
+        'as the mean of the last seconds.',
     );
+    setText(this.title, `Bytes per second of ${live.self} on the long-range radio`);
+    setText(this.wifiTitle, `Bytes per second of ${live.self} on Wi-Fi`);
     setText(this.access, accessText(live));
-    setText(this.maps, mapsText(radio));
+    setText(this.maps, mapsText(live));
     setText(this.fleetMaps, fleetMapsText(live.maps));
     patch(this.tables, [...this.kinds(radio), ...this.peers(radio), ...this.queues(radio)]);
-    if (!this.root.hidden) this.draw();
+    this.draw();
   }
 
   redraw(): void {
-    this.plot?.destroy();
-    this.plot = undefined;
-    if (this.points[0].length > 0 && !this.root.hidden) this.draw();
+    if (this.root.hidden) return;
+    for (const chart of [this.chart, this.wifiChart]) chart.redraw();
   }
 
   private kinds(radio: Radio): HTMLElement[] {
@@ -86,50 +98,8 @@ export class RadioPanel {
   }
 
   private draw(): void {
-    if (this.plot) return this.plot.setData(this.points);
-    const style = getComputedStyle(document.documentElement),
-      colour = (name: string) => style.getPropertyValue(name);
-    const axis = {
-      stroke: colour('--soft'),
-      grid: {stroke: colour('--line'), width: 1},
-      ticks: {show: false},
-      font: '11px system-ui',
-    };
-    const line = (label: string, stroke: string, dash?: number[]) => ({
-      label,
-      stroke,
-      dash,
-      width: 2,
-      points: {show: false},
-      value: (_: uPlot, v: number | null) => (v === null ? '' : `${bytes(v)}/s`),
-    });
-    this.plot = new uPlot(
-      {
-        width: this.width(),
-        height: 170,
-        cursor: {drag: {x: false, y: false}},
-        scales: {x: {time: false}, y: {range: (_, __, max) => [0, Math.max(100, 1.1 * max)]}},
-        axes: [
-          {...axis, values: (_, values) => values.map((t) => `${Math.round(t)} s`), size: 28},
-          {...axis, values: (_, values) => values.map(bytes), size: 56},
-        ],
-        series: [
-          {label: 'time', value: (_, t) => (t === null ? '' : ago(t))},
-          line('sent', '#2f7de1'),
-          line('received', '#1fa774'),
-          line('may send', colour('--soft'), [6, 4]),
-        ],
-      },
-      this.points,
-      this.chart,
-    );
-    const canvas = this.chart.querySelector('canvas')!;
-    canvas.setAttribute('role', 'img');
-    canvas.setAttribute(
-      'aria-label',
-      'Bytes per second sent and received over the radio, and what this robot may send; ' +
-        'the present numbers are in the sentence above',
-    );
+    if (this.root.hidden) return;
+    for (const chart of [this.chart, this.wifiChart]) chart.draw();
   }
 
   private width(): number {
@@ -137,8 +107,24 @@ export class RadioPanel {
   }
 
   private resize(): void {
-    if (this.root.clientWidth > 0) this.plot?.setSize({width: this.width(), height: 170});
+    if (this.root.clientWidth > 0) for (const chart of [this.chart, this.wifiChart]) chart.resize();
   }
+}
+
+function radioText({self, radio}: Live): string {
+  const share = radio.share > 0 ? Math.round((100 * radio.sent) / radio.share) : 0;
+  return (
+    `Long-range radio: ${self} sends ${bytes(radio.sent)}/s of ${bytes(radio.share)}/s that it may (${share} %) ` +
+    `and receives ${bytes(radio.received)}/s; all robots together may send ${bytes(radio.fleet_budget)}/s. ` +
+    queueText(radio)
+  );
+}
+
+/** Bytes per second of all kinds of messages on Wi-Fi. */
+function onWifi(radio: Radio): {sent: number; received: number} {
+  const kinds = radio.kinds.filter((one) => one.link === 'short_range');
+  const sum = (of: 'sent' | 'received') => kinds.reduce((all, one) => all + one[of], 0);
+  return {sent: sum('sent'), received: sum('received')};
 }
 
 function queueText(radio: Radio): string {
@@ -152,21 +138,24 @@ function accessText({self, radio}: Live): string {
     : `Only ${radio.who_may_join} may join.`;
 }
 
-function mapsText(radio: Radio): string {
-  if (radio.missing_submaps === 0) return 'Every submap of the nodes held here is held too.';
+function mapsText({self, radio}: Live): string {
+  if (radio.missing_submaps === 0) return `${self} holds the submap of every node that it holds.`;
   const left = radio.seconds_to_equal_map;
-  const when = left === null ? 'none arrive now' : `at the present rate they are here in ${ago(left)}`;
-  return `${radio.missing_submaps} submaps are missing here (${bytes(radio.missing_bytes)}); ${when}.`;
+  const when = left === null ? 'none arrives now' : `at the present rate it has all in ${ago(left)}`;
+  const missing = counted(radio.missing_submaps, 'submap');
+  return `${self} lacks ${missing} of the nodes that it holds (${bytes(radio.missing_bytes)}); ${when}.`;
 }
 
 function fleetMapsText(maps: FleetMaps): string {
   const without = maps.not_counted.length > 0 ? ` Without ${maps.not_counted.join(', ')}, lost or not heard yet.` : '';
   if (maps.last === null)
-    return `By their counts no robot holds fewer submaps; that they hold the same ones, counts do not show.${without}`;
+    return (
+      "By the robots' own counts none lacks a submap. Counts do not show whether all hold the same submaps." + without
+    );
   const left = maps.seconds_to_equal;
-  const when = left === null ? 'none came there lately' : `at the present rates it has as many in ${ago(left)}`;
-  const fewer = `it counts ${maps.missing_submaps} submaps fewer than there are nodes`;
-  return `${maps.last} will be the last: ${fewer}; ${when}.${without}`;
+  const when = left === null ? 'none arrived there lately' : `at the present rates it has all in ${ago(left)}`;
+  const lacks = `by the robots' own counts it lacks ${counted(maps.missing_submaps, 'submap')}`;
+  return `${maps.last} will be the last to have the whole map: ${lacks}; ${when}.${without}`;
 }
 
 function table(title: string, columns: string[], rows: string[][], name: string): HTMLElement[] {

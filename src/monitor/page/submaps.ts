@@ -106,7 +106,11 @@ export class Submaps {
   }
 
   /** Puts each submap on the ramp of colours by a value of it; returns the values at the ramp's ends. */
-  putOnRamp(value: (submap: Submap) => number | undefined, until: number): [number, number] {
+  putOnRamp(
+    value: (submap: Submap) => number | undefined,
+    until: number,
+    atLeast: [number, number] = [Infinity, -Infinity],
+  ): [number, number] {
     const shown = [...this.all.values()].filter((one) => one.t <= until);
     const values: number[] = [];
     for (const submap of shown) {
@@ -115,8 +119,8 @@ export class Submaps {
     }
     if (values.length === 0) return [0, 0];
     values.sort((a, b) => a - b);
-    const low = values[0],
-      high = values[Math.floor(0.985 * (values.length - 1))];
+    const low = Math.min(atLeast[0], values[0]),
+      high = Math.max(atLeast[1], values[Math.floor(0.985 * (values.length - 1))]);
     for (const submap of shown) submap.share = ((value(submap) ?? high) - low) / Math.max(1e-9, high - low);
     return [low, high];
   }

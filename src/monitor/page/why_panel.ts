@@ -2,6 +2,8 @@ import {type Actions, dot, el} from './dom';
 import {patch} from './patch';
 import {
   type Candidates,
+  counted,
+  duration,
   findPair,
   type Live,
   metres,
@@ -23,7 +25,7 @@ export class WhyPanel {
   private hasSelected = false; // the reader, a pair or none
   private verdict: string = 'all';
   private robot: string = 'all';
-  private recent = false; // those of the last minute alone, the newest first
+  private recent = false; // those of the last minute alone
   private rows = kRows;
   private selected?: string; // its key: numbers change as logs of other robots grow
 
@@ -71,13 +73,21 @@ export class WhyPanel {
     const loose = state.loose_sessions.join(', ');
     if (robots < 2) {
       const but = loose === '' ? '' : ` But ${loose}.`;
-      return el('p', {class: 'headline'}, `One robot: ${used} alignments of its own path are in use.${but}`);
+      return el(
+        'p',
+        {class: 'headline'},
+        `One robot: ${counted(used, 'alignment')} of its own path ${used === 1 ? 'is' : 'are'} in use.${but}`,
+      );
     }
     if (apart === 0 && loose !== '')
       return el('p', {class: 'headline bad'}, `All ${robots} robots are joined, but not all sessions: ${loose}.`);
     if (apart === 0)
-      return el('p', {class: 'headline good'}, `All ${robots} robots are joined: ${used} alignments are in use.`);
-    const text = `${apart} of ${state.pairs.length} pairs of robots are not joined.`;
+      return el(
+        'p',
+        {class: 'headline good'},
+        `All ${robots} robots are joined: ${counted(used, 'alignment')} ${used === 1 ? 'is' : 'are'} in use.`,
+      );
+    const text = `${apart} of ${counted(state.pairs.length, 'pair')} of robots ${apart === 1 ? 'is' : 'are'} not joined.`;
     return el('p', {class: 'headline bad'}, loose === '' ? text : `${text} Besides, ${loose}.`);
   }
 
@@ -155,7 +165,7 @@ export class WhyPanel {
     const facts = el(
       'p',
       {class: 'facts'},
-      `${pair.attempts} registrations${knownOf(pair)}, ${pair.accepted} accepted, ${pair.used} in use`,
+      `${counted(pair.attempts, 'registration')}${knownOf(pair)}, ${pair.accepted} accepted, ${pair.used} in use`,
       pair.nearest_m !== null && `; nearest nodes ${metres(pair.nearest_m)} apart: `,
     );
     for (const id of pair.nearest ?? []) {
@@ -175,7 +185,7 @@ export class WhyPanel {
       .map((one) => el('p', {class: 'facts candidates', 'data-key': `candidates ${one.by}`}, one.sentence));
   }
 
-  /** Those that the filters let through, but for the verdict: the chips count them. */
+  /** Those that the filters let through, but for the verdict: the chips count them. The newest are first. */
   private filtered(state: State): [Registration, number][] {
     const of = (id: string) => id.split(/[#/]/)[0];
     const since = this.recent ? lastMinute(state) : -Infinity;
@@ -187,7 +197,7 @@ export class WhyPanel {
         if (this.pair && !(robots.includes(this.pair[0]) && robots.includes(this.pair[1]))) return false;
         return this.robot === 'all' || robots.includes(this.robot) || one.by === this.robot;
       });
-    return this.recent ? all.sort(([a], [b]) => b.t! - a.t!) : all;
+    return all.sort(([a], [b]) => (b.t ?? -Infinity) - (a.t ?? -Infinity) || 0);
   }
 
   private filters(state: State): HTMLElement {
@@ -269,6 +279,7 @@ export class WhyPanel {
         },
         el('span', {class: `verdict ${one.verdict}`}, one.verdict),
         el('span', {class: 'who'}, `${one.source} → ${one.target}`),
+        one.t !== undefined && el('time', {class: 'when', title: 'after the first node'}, duration(one.t)),
         el('span', {class: 'sentence'}, one.sentence),
       );
       button.onclick = () => this.actions.selectRegistration(index);

@@ -56,15 +56,15 @@ TEST_F(RobotsNow, EveryRobotOfTheFleetIsThereByNameAlsoUnheard) {
 
 TEST_F(RobotsNow, ActivityFollowsFromTheMissionReport) {
   const auto words = [&](MissionState state, std::uint32_t current) {
-    return activity_of(report(state, current, 4, 1), fleet_.rows, std::nullopt);
+    return activity_of(report(state, current, 4, 1), fleet_.rows, std::nullopt, std::nullopt);
   };
   EXPECT_EQ(words(MissionState::kDriving, 2), "drives row 72, 25 % of the rows are driven");
   EXPECT_THAT(words(MissionState::kDriving, messages::MissionReport::kNoRow), HasSubstr("between two rows"));
   EXPECT_THAT(words(MissionState::kDriving, 4), HasSubstr("between two rows")) << "of another mission";
   EXPECT_THAT(words(MissionState::kMeeting, 0), HasSubstr("waits where all meet"));
   EXPECT_THAT(words(MissionState::kStuck, 0), HasSubstr("stuck"));
-  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 0, 0), {}, std::nullopt), "is done");
-  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 40, 40), fleet_.rows, 0.0),
+  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 0, 0), {}, std::nullopt, std::nullopt), "is done");
+  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 40, 40), fleet_.rows, 0.0, std::nullopt),
             "is done, 100 % of the rows are driven");
 }
 
@@ -157,6 +157,16 @@ TEST_F(RobotsNow, ACallHomeAndAGivenRowCountOnceTheRobotHasAnswered) {
   fleet_.driving[kPeer] = Hold::Driving::kHeld;
   EXPECT_THAT(of(kPeer).problems, IsEmpty());
   EXPECT_EQ(of(kPeer).activity, "stands still: an operator holds it on its way home");
+}
+
+TEST_F(RobotsNow, ARobotThatWasCalledHomeIsOnItsWayOrBackAtItsStart) {
+  fleet_.starts[kPeer] = {0.0, -20.0};
+  fleet_.reports[kPeer] = report(MissionState::kCalledHome, messages::MissionReport::kNoRow, 4, 1);
+  fleet_.reports[kPeer].position = {0.0, 14.0};
+  EXPECT_EQ(of(kPeer).activity,
+            "was called home and gave its rows away: 34 m from its start, 25 % of the rows are driven");
+  fleet_.reports[kPeer].position = {1.0, -21.0};
+  EXPECT_THAT(of(kPeer).activity, HasSubstr("gave its rows away: it is back at its start, "));
 }
 
 TEST_F(RobotsNow, HealthAndClockOfAnotherRobotComeWithItsStatus) {

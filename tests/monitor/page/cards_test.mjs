@@ -5,7 +5,11 @@ import {pageModule, three} from './page_module.mjs';
 import {alignment, node, registration, state} from './states.mjs';
 
 await openPage(process.argv[2]);
-const {edgeCard, edgeOfRegistration, nodeCard} = await pageModule(process.argv[2], 'cards', 'edges');
+const {edgeCard, edgeOfRegistration, nodeCard, pointCard, stepCard} = await pageModule(
+  process.argv[2],
+  'cards',
+  'edges',
+);
 const {Vector3} = await three(process.argv[2]);
 /** Heading, sentence and rows of a card. */
 const content = (card) => {
@@ -54,6 +58,25 @@ assert.equal(second.GPS, 'none');
 assert.equal(second.submap, 'not held here');
 assert.equal(content(nodeCard(shown, 'r2#0', undefined)).rows.submap, 'empty');
 assert.equal(nodeCard(shown, 'r9#0', undefined), null);
+
+// A point has its own place and the node that it was seen from; a trajectory its two nodes.
+const rowsOf = (card) =>
+  Object.fromEntries([...card[1].querySelectorAll('dt')].map((one) => [textOf(one), textOf(one.nextElementSibling)]));
+const point = pointCard(shown, 'r1#75', new Vector3(1, 2, 3));
+assert.equal(textOf(point[0]), 'Point of the submap of node r1#75');
+assert.equal(rowsOf(point).ENU, '1.00, 2.00, 3.00 m');
+assert.match(rowsOf(point).made, /^1:15 after the first node, by r1$/);
+assert.match(rowsOf(pointCard(floating, 'r2#0', new Vector3(0, 0, 0)))['on Earth'], /^not known/);
+assert.equal(pointCard(shown, 'r9#0', new Vector3(0, 0, 0)), null);
+const step = stepCard(shown, 'r1#0', 'r1#75', 10);
+assert.equal(textOf(step[0]), 'Trajectory of r1');
+assert.deepEqual(rowsOf(step), {
+  from: 'r1#0',
+  to: 'r1#75',
+  driven: '0:00 to 1:15 after the first node',
+  length: '10.0 m',
+});
+assert.equal(stepCard(shown, 'r1#0', 'r9#0', 10), null);
 
 const edge = content(edgeCard(shown, {kind: 'used', a: 'r1#0', b: 'r2#0', registration: 0, alignment: 0}, 12.5));
 assert.equal(edge.heading, 'Alignment in use: r2#0 → r1#0');

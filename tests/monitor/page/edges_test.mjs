@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
 import {alignment, registration, state} from './states.mjs';
 
-const {edgeOfRegistration, edgesOf} = await pageModule(process.argv[2], 'edges');
+const {edgeIn, edgeOfRegistration, edgesOf} = await pageModule(process.argv[2], 'edges');
 const fleet = state({
   alignments: [
     alignment('r1#0', 'r2#0', 'used'),
@@ -33,6 +33,23 @@ assert.deepEqual(edges, [
 for (const edge of edges)
   if (edge.registration !== undefined) assert.deepEqual(edgeOfRegistration(fleet, edge.registration), edge);
 assert.deepEqual(edgeOfRegistration(fleet, 2), {kind: 'unused', a: 'r1#0', b: 'r2#0', registration: 2});
+
+// Each edge is found again in a newer state, whose lists grew in front, and in none where it is gone.
+const grown = state({
+  alignments: [alignment('r0#0', 'r1#0', 'used'), ...fleet.alignments],
+  registrations: [
+    registration('r0#0', 'r1#0', 'accepted', {alignment: 0}),
+    ...fleet.registrations.map((one) => ({...one, alignment: one.alignment === null ? null : one.alignment + 1})),
+  ],
+});
+const grew = (index) => (index === undefined ? undefined : index + 1);
+for (const edge of edges) {
+  const {kind, a, b} = edge;
+  const found = edgeIn(grown, fleet, edge);
+  const numbers = {alignment: grew(edge.alignment), registration: grew(edge.registration)};
+  assert.deepEqual({alignment: undefined, ...found}, {kind, a, b, ...numbers});
+  assert.equal(edgeIn(state(), fleet, edge), undefined);
+}
 
 // Ten thousand alignments and registrations take no time to speak of: each is visited once.
 let reads = 0;

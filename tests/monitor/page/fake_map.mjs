@@ -46,6 +46,9 @@ export class FleetMap {
   hitAt() {
     return this.hit;
   }
+  pick() {
+    return this.hit;
+  }
   pointAt() {
     return undefined;
   }

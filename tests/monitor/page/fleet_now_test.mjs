@@ -21,10 +21,10 @@ try {
   const show = (r2, more) => fleet.show(live([robotNow('r1'), robotNow('r2', r2)], more));
   const card = (id) => fleet.root.querySelector(`[data-robot=${id}]`);
   const button = (name) => fleet.root.querySelector(`button[aria-label="${name}"]`);
-  const press = async (one) => {
-    one.click();
+  const press = async (one, times = 1) => {
+    for (let k = 0; k < times; ++k) one.click();
     await new Promise((later) => setTimeout(later));
-    return fleet.root.querySelector('.hint').textContent;
+    return textOf(fleet.root.querySelector('.hint'));
   };
 
   // Present words; a robot that is silent too long is lost, also without a newer status.
@@ -37,7 +37,10 @@ try {
     alignments: 2,
   });
   assert.match(textOf(card('r2')), /r2in contact.*r2 drives row 7\./);
-  assert.match(textOf(card('r2')), /Last heard 3 s ago by radio; battery 63 %; position known to 0\.03 m \(1 σ\);/);
+  assert.match(
+    textOf(card('r2')),
+    /Last heard 3 s ago by radio; battery 63 %; position known to 0\.03 m \(1 σ\) now, by its EKF;/,
+  );
   assert.match(textOf(card('r2')), /holds 4 nodes, 3 submaps, 2 alignments\./);
   assert.match(textOf(card('r1')), /shows this page/);
   clock += 58_000;
@@ -52,6 +55,23 @@ try {
   assert.equal(fleet.root.querySelector('.scroll'), sensors);
   assert.match(textOf(card('r2')), /in contact.*no GPS.*The clock of its gps is about 250 ms ahead/i);
 
+  // Of the robot that shows the page the offset itself is known; the silence of one link is no fault.
+  const lidar = {name: 'lidar', samples: 5, per_second: 10, clock_behind_s: 0.12, clock_slow_ppm: null, findings: []};
+  const clocks = {clock: {sensor: 'lidar', behind_s: 0.128}};
+  const heard = [
+    {link: 'short_range', seconds_ago: 2},
+    {link: 'long_range', seconds_ago: 36},
+  ];
+  fleet.show(
+    live([robotNow('r1', clocks), robotNow('r2', {...clocks, heard, nodes: 1, submaps: 1, alignments: 1})], {
+      sensors: [lidar],
+    }),
+  );
+  assert.match(textOf(card('r1')), /The clock of its lidar is 120 ms behind/);
+  assert.match(textOf(card('r2')), /the clock of its lidar is about 128 ms behind/);
+  assert.match(textOf(card('r2')), /Last heard 2 s ago by Wi-Fi, before that 36 s ago by radio;/);
+  assert.match(textOf(card('r2')), /holds 1 node, 1 submap, 1 alignment\./);
+
   // Problems that are over are past ones.
   show({
     past_problems: [
@@ -61,7 +81,7 @@ try {
       {text: 'its disk refused writes', total: true, seconds_ago: null},
     ],
   });
-  const items = (list) => [...card('r2').querySelectorAll(`.${list} li`)].map((one) => one.textContent);
+  const items = (list) => [...card('r2').querySelectorAll(`.${list} li`)].map(textOf);
   assert.deepEqual(items('problems'), []);
   assert.ok(card('r2').querySelector('.problems').hidden);
   assert.deepEqual(items('past'), [
@@ -89,7 +109,7 @@ try {
   );
   const cells = (name) => [...fleet.root.querySelectorAll(`[data-sensor=${name}] td`)].at(-1);
   assert.deepEqual(
-    [...cells('imu').querySelectorAll('div')].map((one) => `${one.className} ${one.textContent}`),
+    [...cells('imu').querySelectorAll('div')].map((one) => `${one.className} ${textOf(one)}`),
     ['over was: imu: stamps are 5 s behind', 'bad IMU: samples are missing'],
   );
   assert.equal(cells('gps').textContent, '–');
@@ -103,7 +123,9 @@ try {
   show({ordered_to_hold: true});
   assert.equal(await press(button('Resume r2')), 'Ordered: resume r2.');
   show({});
-  await press(button('Call r2 home'));
+  assert.equal(await press(button('Call r2 home')), 'Press again within 5 s: Call r2 home.');
+  assert.equal(asked.length, 2, 'one press calls nobody home');
+  await press(card('r2').querySelector('.sure'));
   show({called_home: true});
   assert.equal(button('Resume r2').textContent, 'Resume');
   assert.equal(textOf(card('r2').querySelector('h3')).match(/Hold/)?.[0], 'Hold', 'on its way home it can be held');
@@ -135,11 +157,11 @@ try {
   const [row, to] = card('r2').querySelectorAll('select');
   row.value = '9';
   const give = [...card('r2').querySelectorAll('button')].at(-1);
-  assert.equal(await press(give), 'Ordered: r2 gives row 9 to any other robot.');
+  assert.equal(await press(give, 2), 'Ordered: r2 gives row 9 to any other robot.');
   to.value = 'r1';
   show({rows: [7, 9, 11]});
   assert.equal(row.value, '9', 'what is chosen stays when rows come');
-  assert.equal(await press(give), 'Ordered: r2 gives row 9 to r1.');
+  assert.equal(await press(give, 2), 'Ordered: r2 gives row 9 to r1.');
   assert.deepEqual(asked.slice(-2), ['POST /operator/give?robot=r2&row=9', 'POST /operator/give?robot=r2&row=9&to=r1']);
 
   // The page tells if an order does not work.

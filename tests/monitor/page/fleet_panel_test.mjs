@@ -27,9 +27,9 @@ assert.equal(root.firstElementChild, now, 'what the robots do now stays above');
 const cards = [...root.querySelectorAll('article')].map(textOf);
 assert.match(
   cards[0],
-  /r1joined with r2its map is shown2 nodes on 12\.3 m of path, from 0:00 to 1:01\. Last at r1#1, known to 2\.1 cm/,
+  /r1joined with r2its map is shown2 nodes on 12\.3 m of path, from 0:00 to 1:01\. Last at r1#1, known to 0\.02 m/,
 );
-assert.match(cards[0], /3 of its alignments are in use, 0 contradict\./);
+assert.match(cards[0], /0\.02 m \(1 σ\) in the graph\. 3 of its alignments are in use, 0 contradict\./);
 assert.match(cards[1], /joined with r11 of 2 sessions not georeferencedquarantined.*, in 2 sessions/);
 assert.match(cards[2], /joined with nobody.*made no node that is held here/);
 root.querySelector('article button').click();

@@ -21,5 +21,14 @@ assert.deepEqual(at(19, 10), {node: 'c'}, 'a node goes before the line that it l
 assert.equal(at(60, 21), undefined);
 assert.equal(at(125, 10), undefined, 'a line ends at its nodes');
 assert.equal(at(11, 10, true, 0.5)?.node, undefined);
+
+// A trajectory comes last.
+const steps = [
+  ['a', 'behind'],
+  ['a', 'b'],
+];
+assert.deepEqual(hitAt({x: 60, y: 15}, nodes, true, [], 10, steps), {node: 'a', next: 'b'});
+assert.deepEqual(hitAt({x: 60, y: 15}, nodes, true, edges, 10, steps), {edge: ab});
+assert.deepEqual(hitAt({x: 11, y: 10}, nodes, true, [], 10, steps), {node: 'a'});
 const dot = {kind: 'used', a: 'a', b: 'a'};
 assert.deepEqual(hitAt({x: 12, y: 10}, nodes, false, [dot], 10), {edge: dot}, 'also one without length');

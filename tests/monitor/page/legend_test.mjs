@@ -4,7 +4,7 @@ import {openPage, textOf} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
 
 await openPage(process.argv[2]);
-const {linkKeys, rampEnds, scaleLength} = await pageModule(process.argv[2], 'legend');
+const {edgeKeys, linkKeys, rampEnds, rampKey, scaleLength} = await pageModule(process.argv[2], 'legend');
 
 // A round number that takes 44 to 110 pixels, whatever the zoom.
 for (let metresPerPixel = 1e-3; metresPerPixel < 100; metresPerPixel *= 1.07) {
@@ -23,4 +23,12 @@ assert.deepEqual(rampEnds(picture, 'age'), ['0:01', '2:05']);
 assert.deepEqual(rampEnds(picture, 'sigma'), ['0.50 m', '125.0 m']);
 assert.deepEqual(rampEnds(picture, 'intensity'), ['weak', 'strong']);
 
-assert.deepEqual(linkKeys('r1').map(textOf), ['heard by r1', 'loses a fifth, or late', 'lost']);
+assert.equal(rampKey(picture, 'robot'), null);
+assert.equal(textOf(rampKey(picture, 'sigma')), 'Place, 1 sigma, horizontal: 0.50 m125.0 m');
+assert.equal(textOf(rampKey(picture, 'height')), 'Height: -1.3 m7.0 m');
+
+const edges = edgeKeys(['used', 'rejected']);
+assert.deepEqual(edges.map(textOf), ['alignment in use', 'rejected registration']);
+assert.ok(edges[1].querySelector('.key.rejected'));
+const links = ['heard by r1, whose links alone are drawn', 'loses a fifth, or late', 'lost'];
+assert.deepEqual(linkKeys('r1').map(textOf), links);

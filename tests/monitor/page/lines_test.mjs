@@ -5,7 +5,7 @@ import {pageModule, three} from './page_module.mjs';
 import {node, state} from './states.mjs';
 
 await openPage(process.argv[2]);
-const {Lines} = await pageModule(process.argv[2], 'lines');
+const {Lines, dashed, stepsOf} = await pageModule(process.argv[2], 'lines');
 const {Scene, Vector3} = await three(process.argv[2]);
 const scene = new Scene(),
   lines = new Lines(scene);
@@ -39,6 +39,23 @@ assert.deepEqual(path[1], [
 assert.deepEqual(border[1], path[1]);
 assert.notEqual(path[0], border[0]);
 assert.equal(shown().length, 2, 'r2 has no two nodes');
+
+const ids = stepsOf(nodes).map((step) => step.map(({node}) => node.id));
+assert.deepEqual(ids, [
+  ['r1#0', 'r1#1'],
+  ['r1#2', 'r1#3'],
+]);
+
+// Edges are dashed from end to end on a dark ground, trajectories are not and lie on a white one.
+assert.deepEqual(
+  dashed([0, 0, 0, 10, 5, 0], [2, 0.25]).map((v) => Math.round(100 * v) / 100),
+  [0, 0, 0, 2, 1, 0, 8, 4, 0, 10, 5, 0],
+);
+lines.show(marks({edges: [edge('used', 'r1#1', 'r2#0')]}));
+const [ground, dashes] = shown();
+assert.equal(border[0], 'ffffff');
+assert.notEqual(ground[0], border[0]);
+assert.deepEqual([ground[1].length, dashes[1].length, path[1].length], [1, 5, 2]);
 
 // Edges in use lie above those that are not, and those above rejected ones.
 const edges = [edge('used', 'r1#0', 'r2#0'), edge('rejected', 'r1#1', 'r2#0'), edge('unused', 'r1#2', 'r2#0')];

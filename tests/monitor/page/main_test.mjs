@@ -49,19 +49,19 @@ const fleet = state({
 assert.ok(byId('tab-radio').hidden);
 say({live: live([robotNow('r1')])});
 assert.ok(!byId('tab-radio').hidden);
-assert.equal(textOf(byId('summary')), '1 robots · no nodes yet');
+assert.equal(textOf(byId('summary')), '1 robot · no nodes yet');
 say(fleet);
 assert.equal(textOf(byId('title')), 'trial <3');
-assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments');
+assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignment');
 const shown = told('show');
 assert.equal(shown.length, 1);
 assert.notEqual(shown[0][1].colours.get('r1'), shown[0][1].colours.get('r2'));
 assert.match(textOf(byId('why')), /r1 and r2: why/);
 say({live: live([robotNow('r1'), robotNow('r2')])});
-assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments', 'a status leaves the counts');
+assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignment', 'a status leaves the counts');
 socket.onclose();
 assert.match(textOf(byId('connection')), /lost/);
-assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignments', 'the last state is shown');
+assert.equal(textOf(byId('summary')), '2 robots · 3 nodes · 1 alignment', 'the last state is shown');
 say(fleet);
 assert.equal(textOf(byId('connection')), '');
 
@@ -84,6 +84,18 @@ assert.match(card(), /Alignment in use: r2#0 → r1#0.*8\.0+ m apart/);
 byId('card').querySelector('.close').onclick();
 assert.equal(card(), null);
 assert.deepEqual(told('select').at(-1), ['select', undefined]);
+
+// An open card tells what the newest state has of it.
+click();
+const contradicts = {status: 'against_gps', sentence: 'it contradicts GPS'};
+say({
+  ...fleet,
+  alignments: [alignment('r1#0', 'r2#0', 'against_gps')],
+  registrations: [fleet.registrations[0], {...fleet.registrations[1], alignment: 0, ...contradicts}],
+});
+assert.match(card(), /Alignment not used: r2#0 → r1#0.*it contradicts GPS/);
+say(fleet);
+assert.doesNotMatch(card(), /contradicts/);
 map.hit = undefined;
 click();
 assert.equal(card(), null);
@@ -191,10 +203,18 @@ assert.match(textOf(byId('legend')), /r1.*r2 \(not georeferenced\)/);
 say(fleet);
 picture({});
 assert.doesNotMatch(textOf(byId('legend')), /georeferenced/);
-assert.match(textOf(byId('legend')), /heard.*lost/, 'the robot is running: links are on the map');
+assert.match(
+  textOf(byId('legend')),
+  /heard by r1, whose links alone are drawn.*lost/,
+  'the robot is running: links are on the map',
+);
 byId('layer-robots').onchange({target: {checked: false}});
 assert.equal(byId('robots').children.length, 0);
 byId('layer-robots').onchange({target: {checked: true}});
+map.edges = [{kind: 'unused'}, {kind: 'used'}];
+picture({});
+assert.match(textOf(byId('legend')), /alignment in usealignment not used/);
+assert.doesNotMatch(textOf(byId('legend')), /rejected/);
 picture({drawn: 300, moving: true, loading: false, planar: true});
 assert.equal(canvas.dataset.drawn, '300');
 assert.match(textOf(byId('drawn')), /200 of/);

@@ -150,6 +150,32 @@ try {
   assert.equal(map.hitAt(...between('r1#0', 'r2#0'), 5), undefined, 'what is not shown is not clicked');
   map.layers.used = true;
 
+  // A click between two nodes finds the trajectory, one on points the node that they were seen from.
+  assert.deepEqual(map.hitAt(...between('r1#0', 'r1#1'), 5), {node: 'r1#0', next: 'r1#1'});
+  const layers = {...map.layers};
+  Object.assign(map.layers, {nodes: false, paths: false, used: false, rejected: false});
+  assert.equal(map.hitAt(...between('r1#0', 'r1#1'), 5), undefined, 'nor are trajectories that are hidden');
+  const point = map.pick(at('r2#1').x, at('r2#1').y, 5);
+  assert.equal(point.node, 'r2#1');
+  assert.ok(point.point.distanceTo(map.place('r2#1')) < 1e-6);
+  assert.equal(map.pick(...between('r1#0', 'r2#0'), 5), undefined);
+  map.layers.points = false;
+  assert.equal(map.pick(at('r2#1').x, at('r2#1').y, 5), undefined);
+  Object.assign(map.layers, layers);
+  assert.deepEqual(map.pick(at('r2#1').x, at('r2#1').y, 5), {node: 'r2#1'}, 'a node goes before its points');
+
+  // Sigmas of a few centimetres have nearly one colour, not all of the ramp.
+  map.setColour('sigma');
+  map.show(fleet({nodes: fleet().nodes.map((one, k) => ({...one, sigma_m: 0.01 * k}))}));
+  await drawAll();
+  assert.deepEqual(pictures.at(-1).range, [0, 0.5]);
+  map.show(fleet({nodes: fleet().nodes.map((one) => ({...one, sigma_m: 3}))}));
+  await drawAll();
+  assert.deepEqual(pictures.at(-1).range, [0, 3]);
+  map.setColour('robot');
+  map.show(fleet());
+  await drawAll();
+
   // While the view moves slowly, lines are drawn with the points, in one picture of fewer pixels; none is left out.
   renderer.rendered.length = 0;
   map.draw();

@@ -15,16 +15,17 @@ const table = (name) =>
 show({backlog_bytes: 1500, backlog_s: 12, missing_submaps: 2, missing_bytes: 3e6, seconds_to_equal_map: 300});
 assert.equal(
   textOf(root.querySelector('.headline')),
-  'Sends 500 B/s of 1.0 kB/s that it may (50 %); all robots together may send 20.0 kB/s. 1.5 kB wait, sent in 12 s.',
+  'Long-range radio: r1 sends 500 B/s of 1.0 kB/s that it may (50 %) and receives 250 B/s; ' +
+    'all robots together may send 20.0 kB/s. 1.5 kB wait, sent in 12 s.',
 );
 assert.match(
   textOf(root.querySelector('[data-of=maps]')),
-  /^2 submaps are missing here \(3\.0 MB\); .* in 5:00 min\.$/,
+  /^r1 lacks 2 submaps of the nodes that it holds \(3\.0 MB\); .* it has all in 5:00 min\.$/,
 );
 assert.match(textOf(root.querySelector('[data-of=access]')), /Anyone on the radios may join.*r1 has no keys/);
 show({missing_submaps: 1, share: 0, who_may_join: 'members of the fleet'});
 assert.match(textOf(root.querySelector('.headline')), /\(0 %\).*Nothing waits\./, 'no share is no division by zero');
-assert.match(textOf(root.querySelector('[data-of=maps]')), /none arrive now/);
+assert.match(textOf(root.querySelector('[data-of=maps]')), /lacks 1 submap of .*none arrives now/);
 assert.equal(textOf(root.querySelector('[data-of=access]')), 'Only members of the fleet may join.');
 
 // The robot that will have as many submaps as the others last decides; counts do not show which these are.
@@ -34,17 +35,17 @@ const mapsOf = (maps) => {
 };
 assert.equal(
   mapsOf({}),
-  'By their counts no robot holds fewer submaps; that they hold the same ones, counts do not show.',
+  "By the robots' own counts none lacks a submap. Counts do not show whether all hold the same submaps.",
 );
 assert.equal(
   mapsOf({last: 'r3', missing_submaps: 20, seconds_to_equal: 300}),
-  'r3 will be the last: it counts 20 submaps fewer than there are nodes; ' +
-    'at the present rates it has as many in 5:00 min.',
+  "r3 will be the last to have the whole map: by the robots' own counts it lacks 20 submaps; " +
+    'at the present rates it has all in 5:00 min.',
 );
 assert.equal(
   mapsOf({last: 'r3', missing_submaps: 20, seconds_to_equal: null, not_counted: ['r2', 'r4']}),
-  'r3 will be the last: it counts 20 submaps fewer than there are nodes; ' +
-    'none came there lately. Without r2, r4, lost or not heard yet.',
+  "r3 will be the last to have the whole map: by the robots' own counts it lacks 20 submaps; " +
+    'none arrived there lately. Without r2, r4, lost or not heard yet.',
 );
 
 // A phone's sideways scroll and the focus are on elements that stay.
@@ -76,19 +77,32 @@ assert.deepEqual(table('peers'), [
   ['r3', 'Wi-Fi', '0 B/s', '0.0 %', '–'],
 ]);
 assert.deepEqual(table('queues'), [['bulk', '3', '1']]);
+assert.equal(
+  textOf(root.querySelector('[data-of=wifi]')),
+  'Wi-Fi: r1 sends 4.0 kB/s and receives 0 B/s, as the mean of the last seconds.',
+);
+const titles = [...root.querySelectorAll('h2')].map(textOf).slice(0, 2);
+assert.deepEqual(titles, ['Bytes per second of r1 on the long-range radio', 'Bytes per second of r1 on Wi-Fi']);
 
-// The plot keeps the last five minutes, one series each of sent, received and share.
-for (let k = 0; k < 400; ++k) show({sent: k});
-const plot = FakePlot.shown.at(-1);
-assert.equal(plot.data.length, 4);
-assert.ok(plot.data.every((values) => values.length === 300));
-assert.deepEqual([plot.data[1][0], plot.data[1].at(-1)], [100, 399]);
+// A plot of each link: of the radio with the share, of Wi-Fi without.
+show({sent: 77, kinds: [{link: 'short_range', kind: 'submap_chunk', sent: 4000, received: 90}]});
+const plotOf = (k) =>
+  FakePlot.shown
+    .filter((one) => !one.destroyed)
+    [k].data.map((values) => values.at(-1))
+    .slice(1);
+assert.deepEqual(
+  [plotOf(0), plotOf(1)],
+  [
+    [77, 250, 1000],
+    [4000, 90],
+  ],
+);
 const plots = FakePlot.shown.length;
 panel.redraw();
-assert.equal(FakePlot.shown.length, plots + 1);
-assert.ok(plot.destroyed);
+assert.equal(FakePlot.shown.length, plots + 2);
 root.hidden = true;
 panel.redraw();
 show({});
-assert.equal(FakePlot.shown.length, plots + 1, 'nothing is drawn that nobody sees');
+assert.equal(FakePlot.shown.length, plots + 2, 'nothing is drawn that nobody sees');
 assert.equal(page.observers.length, 1);

@@ -104,6 +104,10 @@ try {
   // The ramp goes from the least to nearly the most, and a value that is missing counts as the most.
   const range = submaps.putOnRamp((one) => (one.t === 7 ? undefined : one.t), Infinity);
   assert.deepEqual(range, [0, 196]);
+  assert.deepEqual(
+    submaps.putOnRamp((one) => one.t, Infinity, [-10, 50]),
+    [-10, 196],
+  );
   const low = submaps.heights();
   assert.ok(low[0] >= 0 && low[1] > low[0] && low[1] <= 5);
 
