@@ -1,11 +1,14 @@
 #include "map_output.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <ostream>
 #include <string>
 #include <utility>
 
 #include "elevation_export.hpp"
+#include "fleetmap/output/map_parts.hpp"
 #include "las_export.hpp"
 #include "map_exports.hpp"
 #include "map_info.hpp"
@@ -23,7 +26,23 @@ Result<StoredMap> open(const MapOptions& options) {
   auto without = robots_named(options.without);
   if (!without) return tl::unexpected(without.error());
   selection.without = std::move(*without);
-  return open_map(options.store, selection);
+  auto map = open_map(options.store, selection);
+  if (map && selection.origin && !map->items.nodes.empty() && map->placement.T_enu_node.empty())
+    return failure(options.store + ": none of its " + std::to_string(map->items.nodes.size()) +
+                   " nodes lies near this origin; give one at the site, or leave --origin out");
+  return map;
+}
+
+bool is_point_file(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".ply" || extension == ".pcd";
+}
+
+/// Of a folder that is to be made.
+bool is_named_as_file(const std::string& folder) {
+  return !std::filesystem::is_directory(folder) && std::filesystem::path(folder).has_extension();
 }
 
 CommandResult<ExitCode> print_json(const MapOptions& options, std::ostream& out) {
@@ -54,6 +73,14 @@ CommandResult<ExitCode> print_map_info(const MapOptions& options, std::ostream& 
 CommandResult<ExitCode> write_map(const MapOptions& options, std::ostream& out) {
   const bool rasters = options.format == "geotiff";
   const bool las = !rasters && wants_las(options.out, options.las);
+  const bool points = is_point_file(options.out);
+  if (las && points && options.las.tile_m)
+    return exit_with(kUsage, {"--tile is of LAS: name a folder for the tiles in place of " + options.out});
+  if (!las && !rasters && !points)
+    return exit_with(kUsage, {options.out +
+                              ": end it with .ply, .pcd or .las, or add --format geotiff and name a folder"});
+  if (rasters && is_named_as_file(options.out))
+    return exit_with(kUsage, {options.out + ": GeoTIFFs are three files; name a folder for them"});
   if (rasters && options.las.tile_m) return exit_with(kUsage, {"--tile is of LAS; a GeoTIFF is one raster"});
   if (options.cell_m && !rasters) return exit_with(kUsage, {"--cell is of rasters: add --format geotiff"});
   if (options.las.any() && !las && !rasters)
@@ -63,7 +90,10 @@ CommandResult<ExitCode> write_map(const MapOptions& options, std::ostream& out) 
   auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
   if (const Status valid = map->recipe.merge.validate(); !valid) return exit_with(kUsage, valid.error());
-  if (!las && !rasters) return print_written(export_points(*map, options.store, options.out), out);
+  if (!las && !rasters) {
+    name_parts_apart(output::map_parts(map->items.nodes, map->placement));
+    return print_written(export_points(*map, options.store, options.out), out);
+  }
   const Status written = rasters ? export_elevation(*map, options, out)
                                  : export_las(*map, options.store, options.out, options.las, out);
   return written ? CommandResult<ExitCode>(kDone) : exit_with(kFailed, written.error());
@@ -75,6 +105,7 @@ CommandResult<ExitCode> write_tracks(const MapOptions& options, std::ostream& ou
     return exit_with(kUsage, {"--geoid is of GPX; heights of GeoJSON are above the ellipsoid (RFC 7946)"});
   const auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
+  name_parts_apart(output::map_parts(map->items.nodes, map->placement));
   return print_written(export_tracks(*map, options.store, options.out, geoid), out);
 }
 
@@ -84,8 +115,11 @@ CommandResult<ExitCode> write_graph(const MapOptions& options, std::ostream& out
 }
 
 CommandResult<ExitCode> draw_map(const MapOptions& options, std::ostream& out) {
+  if (is_named_as_file(options.out))
+    return exit_with(kUsage, {options.out + ": there are several pictures; name a folder for them"});
   auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
+  name_parts_apart(output::map_parts(map->items.nodes, map->placement));
   const auto files = export_pictures(*map, options.store, options.out);
   if (!files) return exit_with(kFailed, files.error());
   for (const std::filesystem::path& file : *files) out << file.string() << '\n';

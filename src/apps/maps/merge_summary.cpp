@@ -47,7 +47,12 @@ void print_summary(std::ostream& out, const MergedStore& merged, const std::vect
   for (std::size_t k = 0; k < files.size(); ++k) print_union(out, files[k], merged.unions[k]);
   for (const DayPair& pair : merged.pairs) print_pair(out, pair, files);
   out << written << ": " << merged.placement.T_enu_node.size() << " nodes, " << merged.placement.used.size()
-      << " alignments used, " << merged.placement.components.size() << " parts that no alignment joins\n";
+      << " alignments used, ";
+  if (const std::size_t parts = merged.placement.components.size(); parts > 1) {
+    out << parts << " parts that no alignment joins\n";
+  } else {
+    out << "all in one part\n";
+  }
 }
 
 }  // namespace fleetmap::apps

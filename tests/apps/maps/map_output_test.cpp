@@ -27,6 +27,11 @@ TEST_F(MapOutput, OptionsThatDoNotFitTogetherExitWith2) {
   expect_usage_error(
       {"map", "export", "s.db", "--out", path("m.ply"), "--crs", "enu"},
       "m.ply: --crs and --geoid are of LAS and GeoTIFF: end it with .las, or add --format geotiff");
+  expect_usage_error({"map", "export", "s.db", "--out", path("m.laz")}, "end it with .ply, .pcd or .las");
+  expect_usage_error({"map", "export", "s.db", "--out", path("m.ply"), "--tile", "20"}, "--tile is of LAS");
+  expect_usage_error({"map", "export", "s.db", "--out", path("m.tif"), "--format", "geotiff"},
+                     "name a folder for them");
+  expect_usage_error({"map", "picture", "s.db", "--out", path("m.png")}, "name a folder for them");
 }
 
 }  // namespace

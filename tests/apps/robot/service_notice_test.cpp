@@ -77,7 +77,8 @@ TEST(ServiceNotice, WorkThatHangsIsNoProgress) {
       network->run_until(Stamp{} + std::chrono::minutes(minute));
       const bool hangs = work > ServiceNotice::kMaxWork && minute > 11;
       const bool fed = !supervisor.heard().empty();  // read each minute: the socket holds few messages
-      if (minute != 11) EXPECT_EQ(fed, !hangs) << minute;
+      if (minute == 11) continue;
+      EXPECT_EQ(fed, !hangs) << minute;
     }
   }
 }
