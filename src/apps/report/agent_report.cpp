@@ -1,5 +1,6 @@
 #include "agent_report.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "candidate_report.hpp"
@@ -130,6 +131,8 @@ json origin_json(const GeoPoint& origin) {
 
 void add_holdings(json& report, const store::Store& store, const output::Results* results) {
   report["nodes"] = store.nodes().size();
+  report["own_nodes"] = std::ranges::count(store.nodes(), store.self(),
+                                           [](const auto& entry) { return entry.second.id.agent; });
   report["alignments"] = store.alignments().size();
   report["submaps"] = store.submap_set().size();
   if (results == nullptr) return;

@@ -124,14 +124,14 @@ void show_place(const ReportFacts& facts, eval::HtmlPage& page) {
   }
   eval::Table rows{{"robot", "georeferenced", "GPS fixes received", "used", "why not"}};
   for (const auto& [robot, agent] : agents_of(facts).items()) {
-    const bool mapped = agent.value("nodes", 0) > 0;
+    const bool mapped = agent.value("own_nodes", 0) > 0;
     const bool placed = mapped && has_place_on_earth(robot, agent);
     rows.push_back({robot, placed ? "yes" : "no",
                     shown_count(agent.value("sensors", json::object()), "fixes"),
                     shown_count(agent.value("localization", json::object()), "fix_used"),
                     placed   ? ""
                     : mapped ? why_no_place(agent)
-                             : "it made no node: did LiDAR scans arrive?"});
+                             : "it made no node: " + why_no_node(agent)});
   }
   page.table(rows);
 }
@@ -157,9 +157,10 @@ void show_sensors(const ReportFacts& facts, eval::HtmlPage& page) {
     std::string verdict;
     for (const json& finding : sensors.value("findings", json::array()))
       append_to_list(verdict, finding.get<std::string>(), "; ");
+    if (verdict.empty()) verdict = sensors.value("scans", 0) > 0 ? "nothing found" : why_no_node(agent);
     rows.push_back({robot, shown_count(sensors, "scans"), shown_count(sensors, "missing_scans"),
                     shown_count(sensors, "imu"), shown_count(sensors, "fixes"), shown_count(sensors, "wheel"),
-                    verdict.empty() ? "nothing found" : verdict});
+                    verdict});
   }
   page.table(rows);
 }

@@ -11,7 +11,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 json robot_part() {
-  return {{"nodes", 4},
+  return {{"nodes", 8},
+          {"own_nodes", 4},
           {"submaps", 4},
           {"alignments", 2},
           {"map_points", 1000},
@@ -100,6 +101,18 @@ TEST(ReportPage, TheTracksSayWhoseFrameLiesNowhere) {
   const std::string none = report_page(facts).str();
   EXPECT_THAT(none, HasSubstr("no robot has a place on Earth, so north is unknown"));
   EXPECT_THAT(none, Not(HasSubstr("north [m]")));
+}
+
+TEST(ReportPage, RobotWithoutANodeOfItsOwnIsNotGeoreferenced) {
+  ReportFacts facts = two_robots();
+  json& r2 = facts.report["agents"]["r2"];
+  r2["own_nodes"] = 0;
+  r2["sensors"] = {{"scans", 0}, {"fixes", 0}};
+  const std::string page = report_page(facts).str();
+  EXPECT_THAT(page, HasSubstr("<td>r2</td><td>no</td><td>0</td><td>29</td><td class=\"sentence\">"
+                              "it made no node: no LiDAR scan arrived"));
+  EXPECT_THAT(page, Not(HasSubstr("None.")));
+  EXPECT_THAT(page, HasSubstr("<td class=\"sentence\">no LiDAR scan arrived")) << "as its sensors' verdict";
 }
 
 TEST(ReportPage, NamesThatAreNoUtf8DoNotLoseTheReport) {

@@ -17,7 +17,8 @@ using ::testing::SizeIs;
 
 /// Two robots of which nothing is wrong.
 json sound_fleet() {
-  const json robot = {{"nodes", 4},
+  const json robot = {{"nodes", 8},
+                      {"own_nodes", 4},
                       {"map_hash", "a1"},
                       {"not_georeferenced", json::array()},
                       {"missing_submaps", 0},
@@ -82,6 +83,22 @@ TEST(ReportWarnings, EachCounterThatShouldBeZeroIsNamedWithItsRobot) {
     report[json::json_pointer(pointer)] = value;
     EXPECT_THAT(report_warnings(report, {}), ElementsAre(HasSubstr(words))) << pointer;
   }
+}
+
+TEST(ReportWarnings, RobotThatHoldsOnlyTheNodesOfOthersIsNamedWithWhatItsLidarGave) {
+  json report = sound_fleet();
+  json& r2 = report["agents"]["r2"];
+  r2["own_nodes"] = 0;
+  r2["sensors"]["scans"] = 0;
+  EXPECT_THAT(report_warnings(report, {}), ElementsAre(HasSubstr("r2 made no node: no LiDAR scan arrived")));
+  r2["sensors"]["scans"] = 90;
+  r2["sensors"]["refused_scans"] = 90;
+  EXPECT_THAT(report_warnings(report, {}),
+              ElementsAre(HasSubstr("r2 made no node: none of 90 LiDAR scans led to one (90 unusable)")));
+  r2["own_nodes"] = 4;
+  r2["sensors"]["scans"] = 0;
+  EXPECT_THAT(report_warnings(report, {}),
+              ElementsAre(HasSubstr("r2 made no node in this run, only before: no LiDAR scan arrived")));
 }
 
 TEST(ReportWarnings, EqualWarningsOfTwoRobotsAreMerged) {
