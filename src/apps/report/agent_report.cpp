@@ -140,7 +140,8 @@ void add_holdings(json& report, const store::Store& store, const output::Results
   report["map_submaps"] = results->map.submaps;
   report["missing_submaps"] = results->missing_submaps;
   report["map_hash"] = results->map.hash;
-  report["origin"] = origin_json(results->origin);
+  // It is zero where no node has a position (output::site_origin()).
+  if (results->origin != GeoPoint{}) report["origin"] = origin_json(results->origin);
   json groups = json::array();
   for (const auto& component : results->placement.components) {
     json frames = json::array();

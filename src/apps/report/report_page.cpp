@@ -197,7 +197,8 @@ void show_radio(const ReportFacts& facts, eval::HtmlPage& page) {
   double bytes = 0.0;
   for (const auto& [robot, agent] : agents_of(facts).items())
     bytes += agent.value("exchange", json::object()).value("long_range_wire_bytes", 0.0);
-  const double seconds = facts.report.value("virtual_time_s", driven_seconds(facts));
+  const double seconds =
+      facts.report.value("virtual_time_s", facts.report.value("uptime_s", driven_seconds(facts)));
   if (facts.long_range_rate > 0.0 && seconds > 0.0) {
     page.paragraph(
         "Long range: " + short_number(bytes / kKilobyte, 4) + " kB in " + short_number(seconds, 4) +
