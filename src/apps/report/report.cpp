@@ -9,6 +9,7 @@
 #include "fleetmap/core/whole_file.hpp"
 #include "health/silent_topics.hpp"
 #include "page/loaded_run.hpp"
+#include "recordings/unread_parts.hpp"
 #include "report_page.hpp"
 
 namespace fleetmap::apps {
@@ -152,6 +153,8 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
     if (!entry.agent && entry.store) add_holdings(agent, *entry.store, results);
     if (!entry.problem.empty()) agent["problem"] = entry.problem;
     for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
+    if (const auto unread = unread_parts(entry.recording); !unread.empty())
+      agent["recording"]["findings"] = unread;
   }
   if (const Status written = write_whole_file(out / "report.json", text_of(report)); !written) return written;
   ReportFacts facts;

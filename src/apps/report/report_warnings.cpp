@@ -55,6 +55,8 @@ void warn_of_results(const std::string& robot, const json& agent, WarningList& l
 }
 
 void warn_of_sensors(const std::string& robot, const json& agent, WarningList& list) {
+  for (const json& finding : part_of(agent, "recording").value("findings", json::array()))
+    list.add(robot + ": " + finding.get<std::string>());
   const json& sensors = part_of(agent, "sensors");
   for (const json& finding : sensors.value("findings", json::array()))
     list.add(robot + ": " + finding.get<std::string>());

@@ -70,6 +70,9 @@ TEST(ReportPage, RadioUseIsByKindAndAgainstTheBudget) {
   const std::string page = report_page(facts).str();
   EXPECT_THAT(page, HasSubstr("<tr><td>long range</td><td>node</td><td>6</td><td>3</td></tr>"));
   EXPECT_THAT(page, HasSubstr("12 kB in 20 s, on average 5 % of the 12 kB/s"));
+  facts.report.erase("virtual_time_s");
+  facts.report["uptime_s"] = 40.0;
+  EXPECT_THAT(report_page(facts).str(), HasSubstr("12 kB in 40 s, on average 2.5 %")) << "a live robot";
 }
 
 TEST(ReportPage, PairsAreToldWithTheirReason) {
