@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include "fleetmap/core/text_list.hpp"
@@ -88,7 +89,12 @@ std::string tracks_svg(const ReportFacts& facts) {
     eval::LineSeries& line = lines.emplace_back();
     line.name = track.robot;
     line.markers = false;
-    for (const output::StampedPose& pose : track.poses) {
+    for (std::size_t k = 0; k < track.poses.size(); ++k) {
+      const output::StampedPose& pose = track.poses[k];
+      if (k > 0 && begins_session(track.poses[k - 1], pose)) {  // the line is interrupted
+        line.x.push_back(std::numeric_limits<double>::quiet_NaN());
+        line.y.push_back(std::numeric_limits<double>::quiet_NaN());
+      }
       line.x.push_back(pose.T_w_base.translation().x());
       line.y.push_back(pose.T_w_base.translation().y());
     }

@@ -106,6 +106,21 @@ TEST(ReportPage, TheTracksSayWhoseFrameLiesNowhere) {
   EXPECT_THAT(none, Not(HasSubstr("north [m]")));
 }
 
+TEST(ReportPage, NoLineJoinsTheSessionsOfATrack) {
+  const auto lines_of = [](const ReportFacts& facts) {
+    const std::string page = report_page(facts).str();
+    int lines = 0;
+    for (auto at = page.find("<polyline"); at != std::string::npos; at = page.find("<polyline", at + 1))
+      ++lines;
+    EXPECT_THAT(page, Not(HasSubstr("nan")));
+    return lines;
+  };
+  ReportFacts facts = two_robots();
+  const int before = lines_of(facts);
+  for (std::size_t k = 5; k <= 10; ++k) facts.tracks[0].poses[k].stamp += std::chrono::hours(24);
+  EXPECT_EQ(lines_of(facts), before + 1);
+}
+
 TEST(ReportPage, RobotWithoutANodeOfItsOwnIsNotGeoreferenced) {
   ReportFacts facts = two_robots();
   json& r2 = facts.report["agents"]["r2"];
