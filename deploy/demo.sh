@@ -87,7 +87,7 @@ done
 echo "plan:              $out/plan.geojson $out/plan.png"
 echo "map of each robot: $out/{r1,r2,r3}/map.ply (ENU, metres; open with CloudCompare, MeshLab or pcl_viewer)"
 echo "pictures:          $out/map_top.png $out/map_perspective.png (coloured by robot)"
-echo "report:            $out/evaluation.html, and $out/r1/report.json of each robot"
+echo "report:            $out/{r1,r2,r3}/report.html of each robot (numbers: report.json), and $out/evaluation.html of the fleet"
 [ "$good" -eq 1 ] || echo "not all rows were driven, or the maps differ (a machine too slow for four processes in real time? see $out/*.log)" >&2
 printf 'look at it:        %q monitor --run %q\n' "$PWD/$fleetmap" "$out"
 [ "$good" -eq 1 ]

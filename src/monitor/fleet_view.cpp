@@ -6,7 +6,7 @@
 namespace fleetmap::monitor {
 
 std::vector<AgentId> robots_of(const FleetView& view) {
-  std::set<AgentId> robots;
+  std::set<AgentId> robots(view.fleet.begin(), view.fleet.end());
   for (const graph::Node& node : view.nodes) robots.insert(node.id.agent);
   for (const graph::Alignment& alignment : view.alignments) robots.insert(alignment.computed_by);
   for (const Attempt& attempt : view.attempts)

@@ -34,6 +34,9 @@ TEST(FleetView, names_every_robot_of_which_anything_is_known_once) {
   fleet.view.attempts.back().by = agent("g");
   fleet.view.holdings.push_back({agent("h"), agent("i"), 0, 0, 0});
   EXPECT_THAT(names(fleet.view), ElementsAre("a", "b", "c", "d", "e", "f", "g", "h", "i"));
+  fleet.view.fleet = {agent("a"), agent("z")};
+  EXPECT_THAT(names(fleet.view), ElementsAre("a", "b", "c", "d", "e", "f", "g", "h", "i", "z"))
+      << "z is configured, but never came";
 }
 
 TEST(FleetView, an_outcome_of_the_graph_prevails_over_the_list_of_used_alignments) {

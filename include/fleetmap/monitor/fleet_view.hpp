@@ -24,9 +24,10 @@ struct Holding {
 /// All that the page shows of a fleet, as one robot holds it. A value: whoever has it may hand it to any
 /// thread.
 struct FleetView {
-  std::string title;  ///< where it comes from: a folder, a store, a robot
-  AgentId self;       ///< the robot whose store this is
-  GeoPoint origin;    ///< of ENU
+  std::string title;           ///< where it comes from: a folder, a store, a robot
+  AgentId self;                ///< the robot whose store this is
+  std::vector<AgentId> fleet;  ///< robots that should be there by the configuration, if it is known
+  GeoPoint origin;             ///< of ENU
   std::vector<graph::Node> nodes;
   std::vector<bool> has_submap;  ///< parallel to `nodes`
   std::vector<graph::Alignment> alignments;
@@ -40,7 +41,8 @@ struct FleetView {
   std::vector<std::string> notes;          ///< files that could not be read
 };
 
-/// All robots that made a node or an alignment, ran a registration or hold something, by name.
+/// The configured robots and all that made a node or an alignment, ran a registration or hold something, by
+/// name.
 std::vector<AgentId> robots_of(const FleetView& view);
 
 /// Status of each alignment in the placement, by (computed_by, seq). In mode `paper` only used ones have one.

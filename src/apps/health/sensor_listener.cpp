@@ -9,6 +9,7 @@
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "recordings/sample_player.hpp"
+#include "silent_topics.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -47,21 +48,15 @@ std::vector<std::string> SensorListener::findings() {
 }
 
 std::vector<std::string> SensorListener::silent_topics() const {
-  std::vector<std::string> silent;
-  const auto expect = [&](bool used, std::size_t samples, const std::string& topic, const std::string& key,
-                          const std::string& type, const std::string& without) {
-    const bool refused = std::ranges::any_of(
-        refused_, [&](const auto& entry) { return entry.first.starts_with(topic + ": "); });
-    if (!used || samples > 0 || refused) return;
-    silent.push_back("no sample on " + topic + ": is its driver on, and does it publish " + type +
-                     " under that name (" + key + ")? A robot without it has " + without);
+  const auto heard = [&](std::size_t samples, const std::string& topic) {
+    for (const auto& [what, count] : refused_) {
+      if (what.starts_with(topic + ": ")) samples += count;
+    }
+    return samples;
   };
-  expect(config_.odometry_uses_imu, streams_.imus(), config_.topics.imu, "topics.imu", "sensor_msgs/msg/Imu",
-         "odometry.use_imu: false");
-  expect(config_.uses_gps, streams_.fixes(), config_.topics.fix, "topics.fix", "sensor_msgs/msg/NavSatFix",
-         "gps.use: false");
-  expect(config_.odometry_uses_wheel, streams_.wheels(), config_.topics.wheel, "topics.wheel",
-         "nav_msgs/msg/Odometry", "odometry.use_wheel: false");
+  std::vector<std::string> silent = apps::silent_topics(
+      config_, {heard(streams_.imus(), config_.topics.imu), heard(streams_.fixes(), config_.topics.fix),
+                heard(streams_.wheels(), config_.topics.wheel)});
   if (auto blind = streams_.fixes_without_place(config_.uses_gps)) silent.push_back(std::move(*blind));
   return silent;
 }

@@ -11,6 +11,7 @@
 #include "odometry_summary.hpp"
 #include "options.hpp"
 #include "recording_input.hpp"
+#include "unread_parts.hpp"
 
 namespace fleetmap::apps {
 
@@ -35,6 +36,8 @@ CommandResult<ExitCode> trace_recording(const OdometryOptions& options, std::ost
     if (count > 0) out << name << ' ' << count << '\n';
   }
   print_losses(out, *done);
+  const std::vector<std::string> unread = unread_parts(input->reader->counters());
+  for (const std::string& part : unread) out << part << '\n';
   if (!done->kept_its_way())
     return exit_with(kFailed, {"the odometry lost its way; the trajectory is not to be relied on"});
   return kDone;

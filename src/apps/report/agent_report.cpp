@@ -1,5 +1,6 @@
 #include "agent_report.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "candidate_report.hpp"
@@ -130,6 +131,8 @@ json origin_json(const GeoPoint& origin) {
 
 void add_holdings(json& report, const store::Store& store, const output::Results* results) {
   report["nodes"] = store.nodes().size();
+  report["own_nodes"] = std::ranges::count(store.nodes(), store.self(),
+                                           [](const auto& entry) { return entry.second.id.agent; });
   report["alignments"] = store.alignments().size();
   report["submaps"] = store.submap_set().size();
   if (results == nullptr) return;
@@ -137,7 +140,8 @@ void add_holdings(json& report, const store::Store& store, const output::Results
   report["map_submaps"] = results->map.submaps;
   report["missing_submaps"] = results->missing_submaps;
   report["map_hash"] = results->map.hash;
-  report["origin"] = origin_json(results->origin);
+  // It is zero where no node has a position (output::site_origin()).
+  if (results->origin != GeoPoint{}) report["origin"] = origin_json(results->origin);
   json groups = json::array();
   for (const auto& component : results->placement.components) {
     json frames = json::array();

@@ -7,7 +7,9 @@
 
 #include "agent_report.hpp"
 #include "fleetmap/core/whole_file.hpp"
+#include "health/silent_topics.hpp"
 #include "page/loaded_run.hpp"
+#include "recordings/unread_parts.hpp"
 #include "report_page.hpp"
 
 namespace fleetmap::apps {
@@ -108,6 +110,20 @@ void add_fleet_map(const FleetOutcome& outcome, ReportFacts& facts) {
   }
 }
 
+/// Sentences on sensors of a robot whose use is not switched off, and of which nothing was heard.
+std::vector<std::string> silent_topics(const agent::Agent& agent) {
+  const agent::PerceptionConfig& config = agent.config().perception;
+  const agent::PerceptionCounters& heard = agent.perception().counters();
+  SensorSamples samples{heard.imu, heard.fixes, heard.wheel};
+  // Messages that could not be decoded are a problem of their own.
+  for (const bus::TopicStats& topic : agent.bus_stats()) {
+    if (topic.topic == config.topics.imu) samples.imu += topic.received_messages;
+    if (topic.topic == config.topics.fix) samples.fixes += topic.received_messages;
+    if (topic.topic == config.topics.wheel) samples.wheel += topic.received_messages;
+  }
+  return silent_topics(config, samples);
+}
+
 }  // namespace
 
 std::string lost_ways(const odometry::LoamCounters& odometry) {
@@ -137,6 +153,8 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
     if (!entry.agent && entry.store) add_holdings(agent, *entry.store, results);
     if (!entry.problem.empty()) agent["problem"] = entry.problem;
     for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
+    if (const auto unread = unread_parts(entry.recording); !unread.empty())
+      agent["recording"]["findings"] = unread;
   }
   if (const Status written = write_whole_file(out / "report.json", text_of(report)); !written) return written;
   ReportFacts facts;
@@ -149,14 +167,18 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 
 const char* who_may_join(bool keys) { return keys ? "members of the fleet" : "anyone"; }
 
-Status write_report(const agent::Agent& agent, const output::Results* results, const RadioAccess& access,
-                    const std::vector<bus::StallCounters>& stalls, const RunSettings& settings) {
+Status write_report(const agent::Agent& agent, const Result<output::Results>& results,
+                    const AgentStart& start, const RunSettings& settings) {
   const std::filesystem::path& directory = agent.config().directory;
   const AgentId self = agent.config().id;
-  json report = agent_report(agent, results);
-  report["radio_access"] = {{"who_may_join", who_may_join(access.keys)}, {"refused", access.refused}};
+  json report = agent_report(agent, results ? &*results : nullptr);
+  if (!results) report["problem"] = results.error().message;
+  for (const std::string& silent : silent_topics(agent)) report["sensors"]["findings"].push_back(silent);
+  report["uptime_s"] = to_seconds(start.uptime);
+  report["radio_access"] = {{"who_may_join", who_may_join(start.access.keys)},
+                            {"refused", start.access.refused}};
   report["topics"] = topics_json(agent.bus_stats());
-  report["stalls"] = stalls_json(stalls);
+  report["stalls"] = stalls_json(start.stalls);
   report["settings"] = settings_json(settings);
   if (const Status written = write_whole_file(directory / "report.json", text_of(report)); !written)
     return written;
@@ -166,8 +188,9 @@ Status write_report(const agent::Agent& agent, const output::Results* results, c
   facts.report["agents"] = {{self.str(), report}};
   facts.long_range_rate = agent.config().exchange.long_range.fleet_bytes_per_second;
   add_robot(self, directory, facts);
-  if (results != nullptr) {
+  if (results) {
     monitor::FleetView view = view_of(agent.store(), *results);
+    view.fleet = agent.config().exchange.fleet;
     add_attempts(directory, self, view);
     facts.pairs = monitor::explain_pairs(view);
     add_map(directory / "map.ply", facts);

@@ -27,13 +27,18 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 /// Access to the radios.
 struct RadioAccess {
   bool keys = false;                 ///< else anyone
-  std::vector<std::string> refused;  ///< robots with which no exchange was possible, and why
+  std::vector<std::string> refused;  ///< what is wrong with other robots, so that the exchange suffers
+};
+/// One start of an agent, from its beginning to its end.
+struct AgentStart {
+  RadioAccess access;
+  std::vector<bus::StallCounters> stalls;  ///< of its bus's threads
+  Duration uptime{};
 };
 /// The words for it in report.json and on the monitor's page.
 const char* who_may_join(bool keys);
-/// report.json and report.html of one agent alone, in its folder; `results` null: it has no map. `stalls` of
-/// its bus's threads.
-Status write_report(const agent::Agent& agent, const output::Results* results, const RadioAccess& access,
-                    const std::vector<bus::StallCounters>& stalls, const RunSettings& settings);
+/// report.json and report.html of one agent alone, in its folder; `results` may state why it has no map.
+Status write_report(const agent::Agent& agent, const Result<output::Results>& results,
+                    const AgentStart& start, const RunSettings& settings);
 
 }  // namespace fleetmap::apps

@@ -10,8 +10,11 @@ namespace fleetmap::apps {
 
 void add_robot(const AgentId& robot, const std::filesystem::path& folder, ReportFacts& facts) {
   std::error_code none;
-  const std::uintmax_t bytes = std::filesystem::file_size(folder / "store.db", none);
-  if (!none) facts.store_bytes[robot.str()] = bytes;
+  // The write-ahead log holds what has not been copied into the store yet.
+  for (const char* file : {"store.db", "store.db-wal"}) {
+    const std::uintmax_t bytes = std::filesystem::file_size(folder / file, none);
+    if (!none) facts.store_bytes[robot.str()] += bytes;
+  }
   auto poses = output::read_growing_tum(folder / "trajectory.tum");
   if (poses && !poses->empty()) facts.tracks.push_back({robot.str(), std::move(*poses)});
 }
@@ -39,12 +42,18 @@ void add_map(const std::filesystem::path& map_file, ReportFacts& facts) {
   }
 }
 
+bool begins_session(const output::StampedPose& before, const output::StampedPose& pose) {
+  constexpr Duration kPause = std::chrono::seconds(10);
+  return pose.stamp - before.stamp > kPause || pose.stamp < before.stamp;
+}
+
 double driven_distance(const output::Trajectory& poses) {
   constexpr double kStep = 0.2;  // m
   double sum = 0.0;
   std::optional<Eigen::Vector3d> last;
-  for (const output::StampedPose& pose : poses) {
-    const Eigen::Vector3d at = pose.T_w_base.translation();
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (k > 0 && begins_session(poses[k - 1], poses[k])) last.reset();
+    const Eigen::Vector3d at = poses[k].T_w_base.translation();
     const double step = last ? (at - *last).norm() : 0.0;
     if (last && step < kStep) continue;
     sum += step;

@@ -27,7 +27,7 @@ struct ReportFacts {
   nlohmann::json report = nlohmann::json::object();
   std::vector<monitor::PairAnswer> pairs;
   std::vector<RobotTrack> tracks;
-  std::map<std::string, std::uintmax_t> store_bytes;  ///< store.db of each robot
+  std::map<std::string, std::uintmax_t> store_bytes;  ///< store.db of each robot, with its write-ahead log
   std::optional<run_evaluation::MapPicture> plan;
   std::string why_no_plan;       ///< if there should be one
   double mapped_area = 0.0;      ///< m^2, as `fleetmap eval` counts it
@@ -39,7 +39,10 @@ void add_robot(const AgentId& robot, const std::filesystem::path& folder, Report
 /// Adds picture and area of a map file, under the tracks that were added before.
 void add_map(const std::filesystem::path& map_file, ReportFacts& facts);
 
-/// m along the poses, in steps of 0.2 m at least: the noise of a robot that stands is no way.
+/// True if the way between two poses of a track is unknown: a pause between them, as between two starts.
+bool begins_session(const output::StampedPose& before, const output::StampedPose& pose);
+/// m along the poses, in steps of 0.2 m at least: the noise of a robot that stands is no way. Ways between
+/// sessions are not counted.
 double driven_distance(const output::Trajectory& poses);
 
 }  // namespace fleetmap::apps

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include "fleetmap/core/text_list.hpp"
@@ -88,7 +89,12 @@ std::string tracks_svg(const ReportFacts& facts) {
     eval::LineSeries& line = lines.emplace_back();
     line.name = track.robot;
     line.markers = false;
-    for (const output::StampedPose& pose : track.poses) {
+    for (std::size_t k = 0; k < track.poses.size(); ++k) {
+      const output::StampedPose& pose = track.poses[k];
+      if (k > 0 && begins_session(track.poses[k - 1], pose)) {  // the line is interrupted
+        line.x.push_back(std::numeric_limits<double>::quiet_NaN());
+        line.y.push_back(std::numeric_limits<double>::quiet_NaN());
+      }
       line.x.push_back(pose.T_w_base.translation().x());
       line.y.push_back(pose.T_w_base.translation().y());
     }
@@ -124,14 +130,14 @@ void show_place(const ReportFacts& facts, eval::HtmlPage& page) {
   }
   eval::Table rows{{"robot", "georeferenced", "GPS fixes received", "used", "why not"}};
   for (const auto& [robot, agent] : agents_of(facts).items()) {
-    const bool mapped = agent.value("nodes", 0) > 0;
+    const bool mapped = agent.value("own_nodes", 0) > 0;
     const bool placed = mapped && has_place_on_earth(robot, agent);
     rows.push_back({robot, placed ? "yes" : "no",
                     shown_count(agent.value("sensors", json::object()), "fixes"),
                     shown_count(agent.value("localization", json::object()), "fix_used"),
                     placed   ? ""
                     : mapped ? why_no_place(agent)
-                             : "it made no node: did LiDAR scans arrive?"});
+                             : "it made no node: " + why_no_node(agent)});
   }
   page.table(rows);
 }
@@ -157,9 +163,10 @@ void show_sensors(const ReportFacts& facts, eval::HtmlPage& page) {
     std::string verdict;
     for (const json& finding : sensors.value("findings", json::array()))
       append_to_list(verdict, finding.get<std::string>(), "; ");
+    if (verdict.empty()) verdict = sensors.value("scans", 0) > 0 ? "nothing found" : why_no_node(agent);
     rows.push_back({robot, shown_count(sensors, "scans"), shown_count(sensors, "missing_scans"),
                     shown_count(sensors, "imu"), shown_count(sensors, "fixes"), shown_count(sensors, "wheel"),
-                    verdict.empty() ? "nothing found" : verdict});
+                    verdict});
   }
   page.table(rows);
 }
@@ -196,7 +203,8 @@ void show_radio(const ReportFacts& facts, eval::HtmlPage& page) {
   double bytes = 0.0;
   for (const auto& [robot, agent] : agents_of(facts).items())
     bytes += agent.value("exchange", json::object()).value("long_range_wire_bytes", 0.0);
-  const double seconds = facts.report.value("virtual_time_s", driven_seconds(facts));
+  const double seconds =
+      facts.report.value("virtual_time_s", facts.report.value("uptime_s", driven_seconds(facts)));
   if (facts.long_range_rate > 0.0 && seconds > 0.0) {
     page.paragraph(
         "Long range: " + short_number(bytes / kKilobyte, 4) + " kB in " + short_number(seconds, 4) +

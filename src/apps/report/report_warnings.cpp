@@ -43,7 +43,11 @@ void warn_of_results(const std::string& robot, const json& agent, WarningList& l
   if (agent.contains("problem")) list.add(robot + ": " + agent["problem"].get<std::string>());
   if (agent.value("switched_off", false))
     list.add(robot + " was switched off before the end; of it only the store that it left is shown");
-  if (count_in(agent, "nodes") > 0 && !has_place_on_earth(robot, agent))
+  if (agent.contains("own_nodes") && count_in(agent, "own_nodes") == 0)
+    list.add(robot + " made no node: " + why_no_node(agent));
+  else if (agent.contains("sensors") && count_in(agent["sensors"], "scans") == 0)
+    list.add(robot + " made no node in this run, only before: " + why_no_node(agent));
+  if (count_in(agent, "own_nodes") > 0 && !has_place_on_earth(robot, agent))
     list.add(robot + " has no place on Earth: " + why_no_place(agent));
   const std::uint64_t failures = count_in(agent, "store_failures");
   list.add_if(failures, robot + ": " + std::to_string(failures) +
@@ -51,6 +55,8 @@ void warn_of_results(const std::string& robot, const json& agent, WarningList& l
 }
 
 void warn_of_sensors(const std::string& robot, const json& agent, WarningList& list) {
+  for (const json& finding : part_of(agent, "recording").value("findings", json::array()))
+    list.add(robot + ": " + finding.get<std::string>());
   const json& sensors = part_of(agent, "sensors");
   for (const json& finding : sensors.value("findings", json::array()))
     list.add(robot + ": " + finding.get<std::string>());
@@ -128,6 +134,23 @@ bool has_place_on_earth(const std::string& robot, const json& agent) {
     const std::string name = frame.get<std::string>();
     return name.substr(0, name.find('#')) == robot;
   });
+}
+
+std::string why_no_node(const json& agent) {
+  if (!agent.contains("sensors")) return "nobody knows why, since it was switched off";
+  const json& sensors = agent["sensors"];
+  const std::uint64_t scans = count_in(sensors, "scans");
+  if (scans == 0) return "no LiDAR scan arrived; check the LiDAR, its driver and the topic";
+  std::string lost;
+  for (const auto& [key, words] : {std::pair{"refused_scans", "unusable"},
+                                   {"dropped_scans", "dropped"},
+                                   {"repeated_scans", "repeated"},
+                                   {"lost_scans", "without a match"}}) {
+    if (const std::uint64_t count = count_in(sensors, key); count > 0)
+      append_to_list(lost, std::to_string(count) + " " + words);
+  }
+  return "none of " + std::to_string(scans) + " LiDAR scans led to one" +
+         (lost.empty() ? "" : " (" + lost + ")") + "; see the log";
 }
 
 std::string why_no_place(const json& agent) {

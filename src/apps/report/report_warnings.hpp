@@ -15,6 +15,8 @@ std::vector<std::string> report_warnings(const nlohmann::json& report,
 
 /// True if all of the robot's own odometry frames have a place on Earth. `agent` is its part of report.json.
 bool has_place_on_earth(const std::string& robot, const nlohmann::json& agent);
+/// The reason for having made no node, by what its LiDAR gave.
+std::string why_no_node(const nlohmann::json& agent);
 /// The reason for having no place on Earth, by what its GPS gave.
 std::string why_no_place(const nlohmann::json& agent);
 

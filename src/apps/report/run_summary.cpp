@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "recordings/unread_parts.hpp"
 #include "report.hpp"
 
 namespace fleetmap::apps {
@@ -11,6 +12,7 @@ namespace {
 void print_maps(std::ostream& out, const FleetOutcome& outcome, const std::filesystem::path& folder) {
   for (const auto& entry : outcome.agents) {
     const std::string id = entry.id.str();
+    for (const std::string& unread : unread_parts(entry.recording)) out << id << ": " << unread << '\n';
     if (!entry.agent) out << id << ": switched off; what its store held:\n";
     if (!entry.results) {
       out << id << ": no map: " << (entry.problem.empty() ? "it made no node" : entry.problem) << '\n';

@@ -118,17 +118,18 @@ void print_map(std::ostream& out, const std::filesystem::path& directory, const 
       << results.map.hash << '\n';
 }
 
-/// Writes the map and the report of an agent whose work has ended.
+/// Writes the map and the report of an agent whose work has ended; it began at `begun`.
 CommandResult<ExitCode> write_outcome(const config::RobotConfig& config, agent::Agent& agent,
-                                      const bus::DdsBus& bus, const AgentOptions& options,
+                                      const bus::DdsBus& bus, Stamp begun, const AgentOptions& options,
                                       std::ostream& out) {
   monitor::PreviewWriter previews(previews_of_store(config.agent.directory / "store.db"));
   const auto results =
       output::write_results(agent.store(), agent.config().results(), {}, previews.loader(agent.store()));
   write_or_log(previews);
   if (!results) spdlog::warn("{}", results.error().message);
-  const Status written = write_report(agent, results ? &*results : nullptr, radio_access(config.dds, bus),
-                                      bus.stalls(), {kVersion, options.config, options.set});
+  const Status written =
+      write_report(agent, results, {radio_access(config.dds, bus), bus.stalls(), bus.now() - begun},
+                   {kVersion, options.config, options.set});
   if (!written) return exit_with(kFailed, written.error());
   if (results) print_map(out, config.agent.directory, *results);
   out << "report: " << (config.agent.directory / "report.html").string() << '\n';
@@ -155,6 +156,7 @@ CommandResult<ExitCode> run_agent(const AgentOptions& options, std::ostream& out
   config->agent.perception.frame_patience = agent::kFramePatience;
   auto bus = join_dds(config->dds);
   if (!bus) return exit_with(kBadConfiguration, bus.error());
+  const Stamp begun = (*bus)->now();
   for (const std::string& warning : config::peer_warnings(config->dds, config->agent.exchange))
     spdlog::warn("{}: {}", config->agent.id.str(), warning);
   log_keys(config->dds);
@@ -187,7 +189,7 @@ CommandResult<ExitCode> run_agent(const AgentOptions& options, std::ostream& out
   // Work under way uses the agent; it must have ended before the agent goes.
   (*agent)->stop();
   (*bus)->finish_work();
-  const auto outcome = write_outcome(*config, **agent, **bus, options, out);
+  const auto outcome = write_outcome(*config, **agent, **bus, begun, options, out);
   if (!*recorder || (*recorder)->problem().empty()) return outcome;
   out << "the recording ends before the drive: " << (*recorder)->problem() << '\n';
   return outcome ? CommandResult<ExitCode>(kFailed) : outcome;

@@ -243,12 +243,8 @@ void RadioLink::Hellos::warn_of_namesake(const Prefix& sender, const Hello& hell
   const bool both_robots =
       hello.settings.has_value() == radio_.settings_.has_value();  // not an operator's program
   if (hello.sender == radio_.agent_ && both_robots && namesakes_.size() < kMaxNamesakes &&
-      namesakes_.insert(sender).second) {
-    spdlog::error(
-        "{}: another robot at {} is named {}, too: each needs a name of its own, or their nodes are "
-        "taken for conflicts",
-        to_string(radio_.link_), to_text(from), radio_.agent_.str());
-  }
+      namesakes_.insert(sender).second)
+    radio_.notices_.add_namesake(to_text(from), radio_.agent_);
 }
 
 /// Returns the entry of the address that the robot now holds. Null if another robot still holds it, which

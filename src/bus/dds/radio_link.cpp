@@ -193,7 +193,7 @@ RadioSurvey RadioLink::survey() const {
   for (const auto& remote : remotes_) {
     if (elsewhere(*remote) && !remote->heard) survey.silent.push_back(to_text(remote->locator));
   }
-  survey.notices = notices_.refusals();
+  survey.notices = notices_.sentences();
   return survey;
 }
 

@@ -1,5 +1,6 @@
 #include "radio_notices.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace fleetmap::bus {
 namespace {
 
-constexpr std::size_t kMaxRobots = 256, kMaxWarnings = 128;
+constexpr std::size_t kMaxRobots = 256, kMaxSentences = 128;
 
 }  // namespace
 
@@ -24,8 +25,11 @@ void RadioNotices::note(RadioSurvey::Robot robot) {
   }
 }
 
-bool RadioNotices::first_time(const std::string& warning) {
-  return warnings_.size() < kMaxWarnings && warnings_.insert(warning).second;
+bool RadioNotices::add(const std::string& sentence) {
+  const bool known = std::ranges::find(sentences_, sentence) != sentences_.end();
+  if (known || sentences_.size() >= kMaxSentences) return false;
+  sentences_.push_back(sentence);
+  return true;
 }
 
 void RadioNotices::compare(const Hello& hello) {
@@ -36,17 +40,23 @@ void RadioNotices::compare(const Hello& hello) {
         hello.sender.str() + (multicast_
                                   ? " has no " + key + ", this robot has: what goes to it is not counted"
                                   : " has " + key + ", this robot has not: give all the same");
-    if (first_time(one_sided)) spdlog::warn("{}: {}", to_string(link_), one_sided);
+    if (add(one_sided)) spdlog::warn("{}: {}", to_string(link_), one_sided);
   }
   for (const std::string& difference : differences(hello.sender.str(), *hello.settings, *settings_)) {
-    if (first_time(difference)) spdlog::warn("{}: {}", to_string(link_), difference);
+    if (add(difference)) spdlog::warn("{}: {}", to_string(link_), difference);
   }
 }
 
 void RadioNotices::refuse(const std::string& address, const std::string& why) {
-  if (!first_time(address + why)) return;
-  refusals_.push_back(address + ": " + why);
-  spdlog::warn("{}: {}", to_string(link_), refusals_.back());
+  if (add(address + ": " + why)) spdlog::warn("{}: {}", to_string(link_), sentences_.back());
+}
+
+void RadioNotices::add_namesake(const std::string& address, const AgentId& name) {
+  const std::string notice = fmt::format(
+      "another robot at {} is named {}, too: each needs a name of its own, or their nodes are taken for "
+      "conflicts",
+      address, name.str());
+  if (add(notice)) spdlog::error("{}: {}", to_string(link_), notice);
 }
 
 }  // namespace fleetmap::bus

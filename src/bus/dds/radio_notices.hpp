@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -24,19 +23,22 @@ class RadioNotices {
   void compare(const Hello& hello);
   /// Reports that no exchange with the robot at `address` is possible.
   void refuse(const std::string& address, const std::string& why);
+  /// Reports that the robot at `address` has this robot's name.
+  void add_namesake(const std::string& address, const AgentId& name);
 
   const std::vector<RadioSurvey::Robot>& robots() const { return robots_; }
-  const std::vector<std::string>& refusals() const { return refusals_; }
+  /// All sentences so far, also on robots that are gone.
+  const std::vector<std::string>& sentences() const { return sentences_; }
 
  private:
-  bool first_time(const std::string& warning);
+  /// False if it was known, or the list is full.
+  bool add(const std::string& sentence);
 
   Link link_;
   bool multicast_;
   std::optional<FleetSettings> settings_;
-  std::set<std::string> warnings_;
   std::vector<RadioSurvey::Robot> robots_;
-  std::vector<std::string> refusals_;
+  std::vector<std::string> sentences_;
 };
 
 }  // namespace fleetmap::bus

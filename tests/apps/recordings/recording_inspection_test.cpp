@@ -52,5 +52,12 @@ TEST(RecordingInspection, ACutIsAFinding) {
   EXPECT_THAT(cut, HasSubstr(kFinding));
 }
 
+TEST(RecordingInspection, ARecordingWithoutAScanIsAFinding) {
+  constexpr std::size_t kBeforeTheFirstScan = 900;
+  const auto [code, output] = inspection_of_beginning(kBeforeTheFirstScan);
+  EXPECT_EQ(code, 1) << output;
+  EXPECT_THAT(output, HasSubstr("- no scan: the LiDAR was off"));
+}
+
 }  // namespace
 }  // namespace fleetmap

@@ -76,6 +76,8 @@ TEST(AgentReport, NamesNobodyInAnHonestFleet) {
   const nlohmann::json report = report_of_honest(fleet_of(1, {})).report;
   EXPECT_FALSE(report.contains("contradict_the_fleet")) << report["contradict_the_fleet"];
   EXPECT_GT(report["nodes"].get<int>(), 20);
+  EXPECT_GT(report["own_nodes"].get<int>(), 0);
+  EXPECT_LT(report["own_nodes"].get<int>(), report["nodes"].get<int>());
 }
 
 }  // namespace

@@ -27,6 +27,13 @@ TEST(DrivenDistance, IsNotMadeOfTheNoiseOfARobotThatStands) {
   EXPECT_EQ(driven_distance({}), 0.0);
 }
 
+TEST(DrivenDistance, IsWithoutTheWayBetweenTwoSessions) {
+  output::Trajectory poses;
+  for (int k = 0; k <= 10; ++k) poses.push_back(pose_at_x(k, k));
+  for (int k = 0; k <= 10; ++k) poses.push_back(pose_at_x(86'400.0 + k, 500.0 + k));
+  EXPECT_NEAR(driven_distance(poses), 20.0, 1e-9);
+}
+
 TEST(ReportFacts, HoldWhatIsInTheRobotsFolder) {
   const testing::TemporaryFolder folder;
   ReportFacts facts;
@@ -34,7 +41,8 @@ TEST(ReportFacts, HoldWhatIsInTheRobotsFolder) {
   add_robot(r1, folder.path(), facts);
   EXPECT_THAT(facts.tracks, IsEmpty());
   EXPECT_THAT(facts.store_bytes, IsEmpty());
-  folder.write("store.db", std::string(1234, 'x'));
+  folder.write("store.db", std::string(1000, 'x'));
+  folder.write("store.db-wal", std::string(234, 'x'));
   ASSERT_TRUE(
       output::write_tum(folder.path() / "trajectory.tum", {pose_at_x(1.0, 0.0), pose_at_x(2.0, 3.0)}));
   add_robot(r1, folder.path(), facts);

@@ -11,7 +11,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 json robot_part() {
-  return {{"nodes", 4},
+  return {{"nodes", 8},
+          {"own_nodes", 4},
           {"submaps", 4},
           {"alignments", 2},
           {"map_points", 1000},
@@ -69,6 +70,9 @@ TEST(ReportPage, RadioUseIsByKindAndAgainstTheBudget) {
   const std::string page = report_page(facts).str();
   EXPECT_THAT(page, HasSubstr("<tr><td>long range</td><td>node</td><td>6</td><td>3</td></tr>"));
   EXPECT_THAT(page, HasSubstr("12 kB in 20 s, on average 5 % of the 12 kB/s"));
+  facts.report.erase("virtual_time_s");
+  facts.report["uptime_s"] = 40.0;
+  EXPECT_THAT(report_page(facts).str(), HasSubstr("12 kB in 40 s, on average 2.5 %")) << "a live robot";
 }
 
 TEST(ReportPage, PairsAreToldWithTheirReason) {
@@ -100,6 +104,33 @@ TEST(ReportPage, TheTracksSayWhoseFrameLiesNowhere) {
   const std::string none = report_page(facts).str();
   EXPECT_THAT(none, HasSubstr("no robot has a place on Earth, so north is unknown"));
   EXPECT_THAT(none, Not(HasSubstr("north [m]")));
+}
+
+TEST(ReportPage, NoLineJoinsTheSessionsOfATrack) {
+  const auto lines_of = [](const ReportFacts& facts) {
+    const std::string page = report_page(facts).str();
+    int lines = 0;
+    for (auto at = page.find("<polyline"); at != std::string::npos; at = page.find("<polyline", at + 1))
+      ++lines;
+    EXPECT_THAT(page, Not(HasSubstr("nan")));
+    return lines;
+  };
+  ReportFacts facts = two_robots();
+  const int before = lines_of(facts);
+  for (std::size_t k = 5; k <= 10; ++k) facts.tracks[0].poses[k].stamp += std::chrono::hours(24);
+  EXPECT_EQ(lines_of(facts), before + 1);
+}
+
+TEST(ReportPage, RobotWithoutANodeOfItsOwnIsNotGeoreferenced) {
+  ReportFacts facts = two_robots();
+  json& r2 = facts.report["agents"]["r2"];
+  r2["own_nodes"] = 0;
+  r2["sensors"] = {{"scans", 0}, {"fixes", 0}};
+  const std::string page = report_page(facts).str();
+  EXPECT_THAT(page, HasSubstr("<td>r2</td><td>no</td><td>0</td><td>29</td><td class=\"sentence\">"
+                              "it made no node: no LiDAR scan arrived"));
+  EXPECT_THAT(page, Not(HasSubstr("None.")));
+  EXPECT_THAT(page, HasSubstr("<td class=\"sentence\">no LiDAR scan arrived")) << "as its sensors' verdict";
 }
 
 TEST(ReportPage, NamesThatAreNoUtf8DoNotLoseTheReport) {

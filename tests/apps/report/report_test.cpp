@@ -86,6 +86,13 @@ TEST_F(FleetReport, TheBytesOfEachLinkAreThere) {
   EXPECT_EQ(links[0]["airtime_s"], 0.056);
 }
 
+TEST_F(FleetReport, DamageOfARecordingIsAWarning) {
+  outcome_.agents[1].recording.damaged_parts = 1;
+  EXPECT_EQ(written()["agents"]["r2"]["recording"]["damaged_parts"], 1);
+  EXPECT_THAT(page_, HasSubstr("<li>r2: 1 part of the recording is damaged or cut off"));
+  EXPECT_THAT(page_, Not(HasSubstr("<li>r1: 1 part")));
+}
+
 TEST_F(FleetReport, VersionAndSettingsAreThere) {
   const auto settings = written()["settings"];
   EXPECT_EQ(settings["version"], "1.2 abc");

@@ -17,7 +17,8 @@ using ::testing::SizeIs;
 
 /// Two robots of which nothing is wrong.
 json sound_fleet() {
-  const json robot = {{"nodes", 4},
+  const json robot = {{"nodes", 8},
+                      {"own_nodes", 4},
                       {"map_hash", "a1"},
                       {"not_georeferenced", json::array()},
                       {"missing_submaps", 0},
@@ -67,6 +68,7 @@ TEST(ReportWarnings, EachCounterThatShouldBeZeroIsNamedWithItsRobot) {
        {std::tuple{"/agents/r2/missing_submaps", json(3), "r2: 3 submaps are missing"},
         {"/agents/r2/store_failures", json(2), "r2: 2 items could not be stored"},
         {"/agents/r2/bus_drops", json{{"fleetmap/node", 5}}, "r2: 5 messages of fleetmap/node were dropped"},
+        {"/agents/r2/recording", json{{"findings", {"1 part is damaged"}}}, "r2: 1 part is damaged"},
         {"/agents/r2/sensors/lost_scans", json(7), "r2: the odometry lost its way: 7 of 90 scans"},
         {"/agents/r2/sensors/dropped_scans", json(8), "r2: 8 scans were dropped"},
         {"/agents/r2/exchange/misbehaved", json{{"r9", 4}}, "r2 refused 4 messages of r9"},
@@ -82,6 +84,22 @@ TEST(ReportWarnings, EachCounterThatShouldBeZeroIsNamedWithItsRobot) {
     report[json::json_pointer(pointer)] = value;
     EXPECT_THAT(report_warnings(report, {}), ElementsAre(HasSubstr(words))) << pointer;
   }
+}
+
+TEST(ReportWarnings, RobotThatHoldsOnlyTheNodesOfOthersIsNamedWithWhatItsLidarGave) {
+  json report = sound_fleet();
+  json& r2 = report["agents"]["r2"];
+  r2["own_nodes"] = 0;
+  r2["sensors"]["scans"] = 0;
+  EXPECT_THAT(report_warnings(report, {}), ElementsAre(HasSubstr("r2 made no node: no LiDAR scan arrived")));
+  r2["sensors"]["scans"] = 90;
+  r2["sensors"]["refused_scans"] = 90;
+  EXPECT_THAT(report_warnings(report, {}),
+              ElementsAre(HasSubstr("r2 made no node: none of 90 LiDAR scans led to one (90 unusable)")));
+  r2["own_nodes"] = 4;
+  r2["sensors"]["scans"] = 0;
+  EXPECT_THAT(report_warnings(report, {}),
+              ElementsAre(HasSubstr("r2 made no node in this run, only before: no LiDAR scan arrived")));
 }
 
 TEST(ReportWarnings, EqualWarningsOfTwoRobotsAreMerged) {

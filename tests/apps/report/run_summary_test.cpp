@@ -41,6 +41,12 @@ TEST_F(RunSummary, NamesTheMapOfEachRobotOrWhyThereIsNone) {
   EXPECT_THAT(printed(), HasSubstr("r1: no map: its disk is full\n"));
 }
 
+TEST_F(RunSummary, NamesWhatCouldNotBeReadOfARecording) {
+  EXPECT_THAT(printed(), Not(HasSubstr("damaged")));
+  outcome_.agents[0].recording.damaged_parts = 1;
+  EXPECT_THAT(printed(), HasSubstr("r1: 1 part of the recording is damaged or cut off"));
+}
+
 TEST_F(RunSummary, NamesRobotsInQuarantineAndThoseThatContradictTheFleet) {
   EXPECT_THAT(printed(), Not(HasSubstr("quarantine")));
   output::Results& results = *outcome_.agents[0].results;

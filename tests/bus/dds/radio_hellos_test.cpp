@@ -96,6 +96,8 @@ TEST_F(RadioHellosTest, ARobotOfThisRobotsNameIsReportedOnce) {
   send(namesake, 4);
   expect_processed("r3", 2, 3);
   EXPECT_EQ(log_.count("is named r1, too"), 1) << log_.text();
+  EXPECT_THAT(bus_->survey(Link::kLongRange).notices,
+              ::testing::Contains(::testing::HasSubstr("is named r1, too")));
 }
 
 /// The answer names the participant that it answers, so that the other one need not answer it.

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fleetmap/recording/reader.hpp"
+
+namespace fleetmap::apps {
+
+/// Sentences on the parts of a recording that could not be read; the log has the first of each with its
+/// place.
+std::vector<std::string> unread_parts(const recording::Counters& counters);
+/// A sentence on a recording in which no scan could be read, by what was left out of it.
+std::string no_scan(const recording::Counters& counters);
+
+}  // namespace fleetmap::apps
