@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "fleetmap/core/paths.hpp"
 #include "fleetmap/core/text_list.hpp"
@@ -77,6 +78,19 @@ Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
   return std::make_unique<store::Store>(std::move(*store));
 }
 
+/// Nodes whose covariance is computed: the last one of each robot, and some of all, since each costs a solution.
+std::vector<NodeId> with_covariance(const std::vector<graph::Node>& nodes) {
+  constexpr std::size_t kOfAll = 32;
+  std::set<NodeId> chosen;
+  std::map<AgentId, NodeId> last;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    last[nodes[k].id.agent] = nodes[k].id;
+    if (k % (nodes.size() / kOfAll + 1) == 0) chosen.insert(nodes[k].id);
+  }
+  for (const auto& [robot, id] : last) chosen.insert(id);
+  return {chosen.begin(), chosen.end()};
+}
+
 /// Places what the store holds as the robot's own last map did.
 Status place_held(const store::Store& store, const fs::path& file, std::span<const AgentId> without,
                   monitor::FleetView& view) {
@@ -89,15 +103,9 @@ Status place_held(const store::Store& store, const fs::path& file, std::span<con
   if (!items) return tl::unexpected(items.error());
   view.nodes = std::move(items->nodes);
   view.alignments = std::move(items->alignments);
-  std::map<AgentId, NodeId> last;
-  for (const graph::Node& node : view.nodes) {
-    view.has_submap.push_back(store.has_submap(node.id));
-    last[node.id.agent] = node.id;
-  }
-  std::vector<NodeId> covariance_of;
-  for (const auto& [robot, id] : last) covariance_of.push_back(id);
+  for (const graph::Node& node : view.nodes) view.has_submap.push_back(store.has_submap(node.id));
   view.placement = graph::compute_placement(view.nodes, view.alignments, LocalFrame(recipe->origin),
-                                            recipe->placement, covariance_of);
+                                            recipe->placement, with_covariance(view.nodes));
   return {};
 }
 

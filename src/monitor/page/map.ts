@@ -3,7 +3,7 @@ import {CpuPoints} from './cpu_points';
 import {type Edge, edgesOf} from './edges';
 import {GlPoints} from './gl_points';
 import {type Hit, hitAt} from './hit';
-import {colourOf, type FleetNode, isNumber, type State} from './model';
+import {colourOf, type FleetNode, isNumber, sigmasOf, type State} from './model';
 import {MapCamera} from './map_camera';
 import {kModes, type ColourMode, pointStyle} from './point_material';
 import {tonesOf} from './ramp';
@@ -89,6 +89,7 @@ export class FleetMap {
     this.state = state;
     this.nodes.clear();
     const wanted = new Set<string>();
+    const sigmas = sigmasOf(state.nodes);
     for (const node of state.nodes) {
       if (!node.T?.every(isNumber)) continue;
       const T = matrixOf(node.T);
@@ -98,7 +99,7 @@ export class FleetMap {
       const submap = this.submaps.all.get(node.submap) ?? this.submaps.add(node.submap, node.robot, node.t);
       submap.colour = colourOf(state, node.robot);
       submap.place(T);
-      submap.sigma_m = node.sigma_m;
+      submap.sigma_m = sigmas.get(node.id);
       submap.floating = node.floating;
     }
     this.submaps.keepOnly(wanted);

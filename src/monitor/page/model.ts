@@ -129,6 +129,20 @@ export function comparable(a: {floating?: number} | undefined, b: {floating?: nu
 /** JSON has null for what is infinite or no number. */
 export const isNumber = (value: unknown): value is number => Number.isFinite(value);
 
+/** By node, m: its own sigma, else that of the nearest node of its robot that has one; only some are computed. */
+export function sigmasOf(nodes: FleetNode[]): Map<string, number> {
+  const sigmas = new Map<string, number>();
+  for (const order of [nodes, [...nodes].reverse()]) {
+    const last = new Map<string, number>();
+    for (const {id, robot, sigma_m} of order) {
+      if (isNumber(sigma_m)) last.set(robot, sigma_m);
+      const near = last.get(robot);
+      if (near !== undefined && !sigmas.has(id)) sigmas.set(id, near);
+    }
+  }
+  return sigmas;
+}
+
 export function duration(seconds: number): string {
   const whole = Math.round(seconds);
   const two = (n: number) => String(n).padStart(2, '0');

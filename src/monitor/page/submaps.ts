@@ -117,7 +117,7 @@ export class Submaps {
       const one = value(submap);
       if (isNumber(one)) values.push(one);
     }
-    if (values.length === 0) return [0, 0];
+    if (values.length === 0) return isNumber(atLeast[0]) ? atLeast : [0, 0];
     values.sort((a, b) => a - b);
     const low = Math.min(atLeast[0], values[0]),
       high = Math.max(atLeast[1], values[Math.floor(0.985 * (values.length - 1))]);

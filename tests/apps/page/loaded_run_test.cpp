@@ -51,6 +51,7 @@ TEST_F(ShownRunTest, OneStoreIsPlacedWithWhatItHolds) {
   EXPECT_THAT(view.nodes, SizeIs(4));
   EXPECT_THAT(view.has_submap, ElementsAre(true, true, true, true));
   EXPECT_EQ(view.placement.T_enu_node.size(), 4u);
+  EXPECT_EQ(view.placement.covariance.size(), 4u) << "of few nodes each; the page colours submaps by it";
   ASSERT_THAT(view.holdings, SizeIs(1));
   EXPECT_EQ(view.holdings[0].nodes, 4u);
   EXPECT_EQ(view.holdings[0].submaps, 4u);

@@ -61,3 +61,13 @@ const one = registration('r1#0', 'r2#0', 'rejected'),
   names = (...registrations) => registrationKeys(state({registrations}));
 assert.equal(names(registration('r1#1', 'r2#0', 'accepted'), one)[1], names(one)[0]);
 assert.equal(new Set(names(one, one, {...one, by: 'r2'})).size, 3);
+
+// Submaps take the sigma of the node before them, or the first one that is known; other robots' do not count.
+const sigmas = sigmasOf([
+  {id: 'r1#0', robot: 'r1'},
+  {id: 'r1#1', robot: 'r1', sigma_m: 0.2},
+  {id: 'r2#0', robot: 'r2'},
+  {id: 'r1#2', robot: 'r1', sigma_m: null},
+  {id: 'r1#3', robot: 'r1', sigma_m: 0.7},
+]);
+assert.deepEqual(Object.fromEntries(sigmas), {'r1#0': 0.2, 'r1#1': 0.2, 'r1#2': 0.2, 'r1#3': 0.7});
