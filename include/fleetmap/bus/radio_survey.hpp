@@ -26,7 +26,7 @@ struct RadioSurvey {
   std::vector<Robot> robots;         ///< in the order in which they were first heard
   std::size_t places = 0;            ///< addresses at which robots are sought
   std::vector<std::string> silent;   ///< addresses of other machines in `peers` without a robot so far
-  std::vector<std::string> notices;  ///< what is wrong with other robots, also those that left
+  std::vector<std::string> notices;  ///< problems with other robots, also those that left
 };
 
 }  // namespace fleetmap::bus

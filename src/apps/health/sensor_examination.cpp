@@ -87,8 +87,9 @@ std::vector<std::string> listen_for(const agent::PerceptionConfig& config, bus::
 }
 
 /// `of_devices` are device_findings(), of which one on fixes explains their silence better.
-std::vector<std::string> silent_topics(const SensorListener& listener, const agent::SensorTopics& topics,
-                                       const std::vector<std::string>& of_devices) {
+std::vector<std::string> unexplained_silences(const SensorListener& listener,
+                                              const agent::SensorTopics& topics,
+                                              const std::vector<std::string>& of_devices) {
   std::vector<std::string> silent = listener.silent_topics();
   const auto is_of_fixes = [](const std::string& finding) { return finding.starts_with("no fix is heard"); };
   if (std::ranges::any_of(of_devices, is_of_fixes))
@@ -100,7 +101,7 @@ std::vector<std::string> silent_topics(const SensorListener& listener, const age
 std::vector<std::string> all_findings(SensorListener& listener, const config::RobotConfig& robot,
                                       const agent::PerceptionConfig& heard,
                                       const std::vector<std::string>& of_devices) {
-  std::vector<std::string> findings = silent_topics(listener, heard.topics, of_devices);
+  std::vector<std::string> findings = unexplained_silences(listener, heard.topics, of_devices);
   std::ranges::move(listener.findings(), std::back_inserter(findings));
   std::ranges::copy(of_devices, std::back_inserter(findings));
   std::ranges::move(machine_findings(machine_state(robot.agent.directory)), std::back_inserter(findings));

@@ -111,7 +111,7 @@ void add_fleet_map(const FleetOutcome& outcome, ReportFacts& facts) {
 }
 
 /// Sentences on sensors of a robot whose use is not switched off, and of which nothing was heard.
-std::vector<std::string> silent_topics(const agent::Agent& agent) {
+std::vector<std::string> silent_sensors(const agent::Agent& agent) {
   const agent::PerceptionConfig& config = agent.config().perception;
   const agent::PerceptionCounters& heard = agent.perception().counters();
   SensorSamples samples{heard.imu, heard.fixes, heard.wheel};
@@ -173,7 +173,7 @@ Status write_report(const agent::Agent& agent, const Result<output::Results>& re
   const AgentId self = agent.config().id;
   json report = agent_report(agent, results ? &*results : nullptr);
   if (!results) report["problem"] = results.error().message;
-  for (const std::string& silent : silent_topics(agent)) report["sensors"]["findings"].push_back(silent);
+  for (const std::string& silent : silent_sensors(agent)) report["sensors"]["findings"].push_back(silent);
   report["uptime_s"] = to_seconds(start.uptime);
   report["radio_access"] = {{"who_may_join", who_may_join(start.access.keys)},
                             {"refused", start.access.refused}};

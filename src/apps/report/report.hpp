@@ -27,7 +27,7 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 /// Access to the radios.
 struct RadioAccess {
   bool keys = false;                 ///< else anyone
-  std::vector<std::string> refused;  ///< what is wrong with other robots, so that the exchange suffers
+  std::vector<std::string> refused;  ///< sentences on problems with other robots
 };
 /// One start of an agent, from its beginning to its end.
 struct AgentStart {

@@ -40,7 +40,10 @@ class WarningList {
 };
 
 void warn_of_results(const std::string& robot, const json& agent, WarningList& list) {
-  if (agent.contains("problem")) list.add(robot + ": " + agent["problem"].get<std::string>());
+  if (agent.contains("problem")) {
+    const std::string problem = agent["problem"].get<std::string>(), of_robot = robot + ": ";
+    list.add(problem.starts_with(of_robot) ? problem : of_robot + problem);
+  }
   if (agent.value("switched_off", false))
     list.add(robot + " was switched off before the end; of it only the store that it left is shown");
   if (agent.contains("own_nodes") && count_in(agent, "own_nodes") == 0)

@@ -80,5 +80,17 @@ TEST(AgentReport, NamesNobodyInAnHonestFleet) {
   EXPECT_LT(report["own_nodes"].get<int>(), report["nodes"].get<int>());
 }
 
+TEST(AgentReport, HasNoOriginWhereNoNodeHasAPlaceOnEarth) {
+  const testing::TemporaryFolder folder;
+  const auto store = store::Store::open(folder.path() / "r1.db", kHonest, {}).value();
+  output::Results results;
+  nlohmann::json report;
+  add_holdings(report, store, &results);
+  EXPECT_FALSE(report.contains("origin")) << report["origin"];
+  results.origin = geo_point_from_degrees(49.0, 8.4, 110.0);
+  add_holdings(report, store, &results);
+  EXPECT_NEAR(report["origin"]["latitude_deg"].get<double>(), 49.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace fleetmap::apps

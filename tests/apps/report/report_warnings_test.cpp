@@ -68,6 +68,7 @@ TEST(ReportWarnings, EachCounterThatShouldBeZeroIsNamedWithItsRobot) {
        {std::tuple{"/agents/r2/missing_submaps", json(3), "r2: 3 submaps are missing"},
         {"/agents/r2/store_failures", json(2), "r2: 2 items could not be stored"},
         {"/agents/r2/bus_drops", json{{"fleetmap/node", 5}}, "r2: 5 messages of fleetmap/node were dropped"},
+        {"/agents/r2/problem", json("r2: there is no map"), "r2: there is no map"},
         {"/agents/r2/recording", json{{"findings", {"1 part is damaged"}}}, "r2: 1 part is damaged"},
         {"/agents/r2/sensors/lost_scans", json(7), "r2: the odometry lost its way: 7 of 90 scans"},
         {"/agents/r2/sensors/dropped_scans", json(8), "r2: 8 scans were dropped"},
