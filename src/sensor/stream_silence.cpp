@@ -86,7 +86,7 @@ void StreamSilence::check() {
              whole(100.0 * all / drive) + " % of the time is in such gaps: " + reason();
 }
 
-/// Of a sensor that has said nothing yet, although its messages come.
+/// A sensor may have said nothing yet, although its messages come.
 void StreamSilence::check_empty() {
   if (found_ || first_at_ || empty_ == 0 || now_ - first_empty_at_ < rule_.found_after) return;
   found_ = true;

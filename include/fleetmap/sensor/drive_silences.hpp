@@ -14,7 +14,7 @@ namespace fleetmap::sensor {
 class DriveSilences {
  public:
   void add_fix(Stamp stamp) { fixes_.add(stamp); }
-  /// Of a receiver without a position.
+  /// A fix of a receiver without a position.
   void add_empty_fix() { fixes_.add_empty(); }
   void add_wheel(Stamp stamp) { wheels_.add(stamp); }
   /// The drive has reached `stamp`, at `position` (m) of the odometry if there is any.

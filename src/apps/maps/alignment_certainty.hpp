@@ -11,7 +11,7 @@ struct AlignmentCertainty {
   double median_m = 0.0, largest_m = 0.0;      ///< of the position
   double median_rad = 0.0, largest_rad = 0.0;  ///< of the rotation
 };
-/// Of the best mode of each. All zero without alignments.
+/// By the best mode of each. All zero without alignments.
 AlignmentCertainty certainty_of(std::span<const graph::Alignment> alignments);
 
 }  // namespace fleetmap::apps

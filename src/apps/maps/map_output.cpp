@@ -40,7 +40,7 @@ bool is_point_file(const std::string& file) {
   return extension == ".ply" || extension == ".pcd";
 }
 
-/// Of a folder that is to be made.
+/// Folders are made of the name; one with an ending was meant as a file.
 bool is_named_as_file(const std::string& folder) {
   return !std::filesystem::is_directory(folder) && std::filesystem::path(folder).has_extension();
 }

@@ -78,7 +78,8 @@ Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
   return std::make_unique<store::Store>(std::move(*store));
 }
 
-/// Nodes whose covariance is computed: the last one of each robot, and some of all, since each costs a solution.
+/// Nodes whose covariance is computed: the last one of each robot, and some of all, since each costs a
+/// solution.
 std::vector<NodeId> with_covariance(const std::vector<graph::Node>& nodes) {
   constexpr std::size_t kOfAll = 32;
   std::set<NodeId> chosen;

@@ -3,8 +3,9 @@ import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
 import {pair, registration, robot, state} from './states.mjs';
 
-const {ago, bytes, colourOf, comparable, count, duration, findPair, linkName, metres, placeMark, registrationKeys} =
-  await pageModule(process.argv[2], 'model');
+const page = await pageModule(process.argv[2], 'model');
+const {ago, bytes, colourOf, comparable, count, duration, findPair, linkName, metres, placeMark} = page;
+const {registrationKeys, sigmasOf} = page;
 const table = (act, cases) => {
   for (const [value, words] of cases) assert.equal(act(value), words, `${act.name}(${value})`);
 };
