@@ -10,8 +10,8 @@ export interface Pixel {
 }
 
 /**
- * The node, else the edge, else the step of a trajectory within `reach` pixels of a place. `nodes`: their pixels; a node
- * behind the camera has none, and edges to nodes that are not among them are not there.
+ * The node, else the edge, else the step of a trajectory within `reach` pixels of a place. `nodes`: their pixels; a
+ * node behind the camera has none, and edges to nodes that are not among them are not there.
  */
 export function hitAt(
   at: Pixel,
