@@ -71,6 +71,8 @@ try {
   assert.match(textOf(card('r2')), /the clock of its lidar is about 128 ms behind/);
   assert.match(textOf(card('r2')), /Last heard 2 s ago by Wi-Fi, before that 36 s ago by radio;/);
   assert.match(textOf(card('r2')), /holds 1 node, 1 submap, 1 alignment\./);
+  show({heard: heard.map((one) => ({...one, seconds_ago: 1}))});
+  assert.match(textOf(card('r2')), /Last heard 1 s ago by Wi-Fi and radio\./);
 
   // Problems that are over are past ones.
   show({
