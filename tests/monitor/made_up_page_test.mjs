@@ -131,7 +131,7 @@ async function onADesk(page, send) {
   await shot(page, 'made_up_desk');
 }
 
-/** What a finger is to hit; the label of a checkbox is part of it. */
+/** Everything that a finger is to hit is at least 36 px wide and high; the label of a checkbox is part of it. */
 async function targetsAreLarge(page) {
   await page.locator('.layers summary').click();
   const small = await page.evaluate(() =>
@@ -144,7 +144,7 @@ async function targetsAreLarge(page) {
   await page.locator('.layers summary').click();
 }
 
-/** What is tapped in a list is described and seen, wherever the list is read; the list comes back with the close. */
+/** A registration or node that is tapped in a list is described and seen; the list comes back with the close. */
 async function onAPhone(page) {
   await page.locator('#tab-why').click();
   const row = page.locator('.registration').nth(20);

@@ -28,6 +28,8 @@ interface Card {
   to: HTMLSelectElement;
 }
 
+const kTogether_s = 5; // robots send their status every few seconds
+
 type Order = 'hold' | 'resume' | 'home' | 'give';
 
 /**
@@ -188,9 +190,7 @@ export class FleetNow {
 
   private facts(robot: RobotNow, isSelf: boolean, later: number): string {
     const facts: string[] = [];
-    // A link is silent while the messages go by the other one, which is no fault.
-    const heard = robot.heard.map((one) => `${ago(one.seconds_ago + later)} ago by ${linkName(one.link)}`);
-    if (!isSelf && heard.length > 0) facts.push(`last heard ${heard.join(', before that ')}`);
+    if (!isSelf && robot.heard.length > 0) facts.push(heardWords(robot.heard, later));
     if (robot.battery !== null) facts.push(`battery ${Math.round(100 * robot.battery)} %`);
     if (robot.sigma_m !== null) facts.push(`position known to ${metres(robot.sigma_m)} (1 σ) now, by its EKF`);
     const measured = isSelf && this.live?.sensors.find(({name}) => name === robot.clock?.sensor)?.clock_behind_s;
@@ -271,6 +271,17 @@ export class FleetNow {
       return false;
     }
   }
+}
+
+/** By the link that was heard last. Others are silent while the messages go by that one, which is no fault. */
+function heardWords(heard: RobotNow['heard'], later: number): string {
+  const [last] = heard;
+  const together = heard.filter((one) => one.seconds_ago - last.seconds_ago < kTogether_s);
+  const others = heard.filter((one) => !together.includes(one));
+  return [
+    `last heard ${ago(last.seconds_ago + later)} ago by ${together.map((one) => linkName(one.link)).join(' and ')}`,
+    ...others.map((one) => `${ago(one.seconds_ago + later)} ago by ${linkName(one.link)}`),
+  ].join(', before that ');
 }
 
 function setItems(list: HTMLElement, texts: string[]): void {

@@ -1,7 +1,7 @@
 import type {Vector3} from 'three';
 import type {Edge} from './edges';
 
-/** A choice on the map: a node, also by a point that was seen from it or by the way from it to the `next`; an edge. */
+/** A choice on the map: a node, also by a point seen from it or by the way from it to the `next`; or an edge. */
 export type Hit = {node: string; point?: Vector3; next?: string} | {edge: Edge};
 
 export interface Pixel {

@@ -213,6 +213,7 @@ function showPicture(picture: Picture): void {
 
 function showScale(picture: Picture): void {
   const length = scaleLength(picture.metresPerPixel);
+  byId('scale').hidden = length < 0.01; // there is nothing to measure yet
   byId('scale').querySelector('i')!.style.width = `${length / picture.metresPerPixel}px`;
   const text = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
   setText(byId('scale').querySelector('span')!, text);

@@ -87,8 +87,8 @@ export class WhyPanel {
         {class: 'headline good'},
         `All ${robots} robots are joined: ${counted(used, 'alignment')} ${used === 1 ? 'is' : 'are'} in use.`,
       );
-    const all = counted(state.pairs.length, 'pair');
-    const text = `${apart} of ${all} of robots ${apart === 1 ? 'is' : 'are'} not joined.`;
+    const pairs = counted(state.pairs.length, 'pair');
+    const text = `${apart} of ${pairs} of robots ${apart === 1 ? 'is' : 'are'} not joined.`;
     return el('p', {class: 'headline bad'}, loose === '' ? text : `${text} Besides, ${loose}.`);
   }
 

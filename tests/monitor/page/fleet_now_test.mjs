@@ -55,7 +55,7 @@ try {
   assert.equal(fleet.root.querySelector('.scroll'), sensors);
   assert.match(textOf(card('r2')), /in contact.*no GPS.*The clock of its gps is about 250 ms ahead/i);
 
-  // Of the robot that shows the page the offset itself is known; the silence of one link is no fault.
+  // The robot that shows the page has the offset itself; the silence of one link is no fault.
   const lidar = {name: 'lidar', samples: 5, per_second: 10, clock_behind_s: 0.12, clock_slow_ppm: null, findings: []};
   const clocks = {clock: {sensor: 'lidar', behind_s: 0.128}};
   const heard = [
@@ -71,6 +71,8 @@ try {
   assert.match(textOf(card('r2')), /the clock of its lidar is about 128 ms behind/);
   assert.match(textOf(card('r2')), /Last heard 2 s ago by Wi-Fi, before that 36 s ago by radio;/);
   assert.match(textOf(card('r2')), /holds 1 node, 1 submap, 1 alignment\./);
+  show({heard: heard.map((one) => ({...one, seconds_ago: 1}))});
+  assert.match(textOf(card('r2')), /Last heard 1 s ago by Wi-Fi and radio\./);
 
   // Problems that are over are past ones.
   show({

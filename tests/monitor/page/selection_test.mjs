@@ -1,4 +1,4 @@
-// What is selected, and its card (src/monitor/page/selection.ts).
+// The selection and its card (src/monitor/page/selection.ts).
 import assert from 'node:assert/strict';
 import {calls, FleetMap} from './fake_map.mjs';
 import {openPage} from './fake_page.mjs';
