@@ -205,9 +205,7 @@ void read_geoid(Section& gps, agent::DeviceConfig& devices) {
                 "ellipsoid by their definition (NavSatFix)");
     return;
   }
-  auto geoid = Geoid::load(name);
-  if (!geoid) return gps.problem("geoid", geoid.error().message);
-  devices.geoid = std::move(*geoid);
+  devices.geoid = name;
 }
 
 void read_gps(Section& top, agent::PerceptionConfig& perception) {

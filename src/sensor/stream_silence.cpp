@@ -88,8 +88,8 @@ void StreamSilence::check() {
 
 /// A sensor may have said nothing yet, although its messages come.
 void StreamSilence::check_empty() {
-  if (found_ || first_at_ || empty_ == 0 || now_ - first_empty_at_ < rule_.found_after) return;
-  found_ = true;
+  if (empty_found_ || first_at_ || empty_ == 0 || now_ - first_empty_at_ < rule_.found_after) return;
+  empty_found_ = true;
   finding_ = rule_.sensor + " in the first " + whole(now_ - first_empty_at_) + " s: " + reason();
 }
 

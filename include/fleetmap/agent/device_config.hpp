@@ -7,8 +7,6 @@
 #include <string>
 #include <variant>
 
-#include "fleetmap/geometry/geoid.hpp"
-
 namespace fleetmap::agent {
 
 inline constexpr std::array<std::uint32_t, 10> kBaudRates = {4800,   9600,   19200,  38400,  57600,
@@ -41,7 +39,7 @@ struct DeviceConfig {
   std::optional<DevicePlace> mavlink;  ///< an autopilot, at a serial or a UDP port
   bool mavlink_gps = true;             ///< its fixes are used
   bool mavlink_imu = true;             ///< its IMU is used
-  std::optional<Geoid> geoid;          ///< that fixes above sea level are above; for one thread
+  std::optional<std::string> geoid;    ///< name of that which fixes above sea level are above
 };
 
 }  // namespace fleetmap::agent

@@ -61,7 +61,7 @@ class StreamSilence {
   double in_gaps_ = 0.0;              ///< s, of gaps that ended
   std::size_t gaps_ = 0;              ///< that ended
   Gap longest_;                       ///< of these
-  bool found_ = false;
+  bool found_ = false, empty_found_ = false;
   std::optional<std::string> finding_;
 };
 

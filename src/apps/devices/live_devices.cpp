@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "fleetmap/geometry/geoid.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/sensor/ellipsoidal_height.hpp"
 #include "fleetmap/sensor/gpsd_fixes.hpp"
@@ -42,6 +43,7 @@ struct Topics {
   bus::Bus& bus;
   bus::Topic imu, fix;
   std::optional<Geoid> geoid;
+  std::shared_ptr<bool> said = std::make_shared<bool>(false);  ///< that a height could not be converted
 
   void publish(const sensor::DeviceSamples& samples, bool with_imu = true, bool with_fixes = true) const {
     for (const sensor::Imu& sample : samples.imu) {
@@ -49,8 +51,8 @@ struct Topics {
     }
     for (sensor::Fix sample : samples.fixes) {
       if (!with_fixes) continue;
-      if (const Status converted = geoid ? sensor::make_ellipsoidal(sample, *geoid) : Status{}; !converted)
-        spdlog::error("{}", converted.error().message);
+      const Status converted = geoid ? sensor::make_ellipsoidal(sample, *geoid) : Status{};
+      if (!converted && !std::exchange(*said, true)) spdlog::error("{}", converted.error().message);
       bus.publish(fix, ros_codec::encode(sample));
     }
   }
@@ -108,8 +110,8 @@ std::unique_ptr<DeviceInput> mavlink_input(const agent::DeviceConfig& config, co
 
 }  // namespace
 
-std::vector<std::unique_ptr<DeviceInput>> publish_devices(const agent::PerceptionConfig& config,
-                                                          bus::Bus& bus) {
+Result<std::vector<std::unique_ptr<DeviceInput>>> publish_devices(const agent::PerceptionConfig& config,
+                                                                  bus::Bus& bus) {
   const agent::DeviceConfig& devices = config.devices;
   std::vector<std::unique_ptr<DeviceInput>> inputs;
   if (!devices.nmea && !devices.gpsd && !devices.mavlink) return inputs;
@@ -117,7 +119,13 @@ std::vector<std::unique_ptr<DeviceInput>> publish_devices(const agent::Perceptio
   const auto named = [&](const std::string& name) {
     return *std::ranges::find(all, name, &bus::Topic::name);
   };
-  const Topics topics{bus, named(config.topics.imu), named(config.topics.fix), devices.geoid};
+  std::optional<Geoid> geoid;
+  if (devices.geoid) {
+    auto loaded = Geoid::load(*devices.geoid);
+    if (!loaded) return failure("gps.geoid: " + loaded.error().message);
+    geoid = std::move(*loaded);
+  }
+  const Topics topics{bus, named(config.topics.imu), named(config.topics.fix), std::move(geoid)};
   bus.advertise(topics.imu);
   bus.advertise(topics.fix);
   if (devices.nmea) inputs.push_back(nmea_input(*devices.nmea, topics));

@@ -79,11 +79,12 @@ std::vector<std::string> listen_for(const agent::PerceptionConfig& config, bus::
   const auto lidar = publish_lidar(config, bus);
   if (!lidar) spdlog::info("{}", lidar.error().message);
   const auto devices = publish_devices(config, bus);
+  if (!devices) return {devices.error().message};
   out << "listening for " << seconds
       << " s; drive 10 m and a turn to either side, so that units and motions show\n";
   bus.run_until([] { return stop_on_signals().load(); }, from_seconds(seconds));
   bus.run_until([&] { return listener.idle(); }, kLastScan);
-  return device_findings(devices, config.devices, listener.streams().fixes());
+  return device_findings(*devices, config.devices, listener.streams().fixes());
 }
 
 /// `of_devices` are device_findings(), of which one on fixes explains their silence better.

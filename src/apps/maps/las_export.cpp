@@ -54,11 +54,15 @@ void name_parts_apart(const output::MapParts& parts) {
   }
 }
 
-bool wants_las(const std::string& path, const LasOptions& options) {
-  std::string extension = std::filesystem::path(path).extension();
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return options.tile_m || extension == ".las";
+  return extension;
+}
+
+bool wants_las(const std::string& path, const LasOptions& options) {
+  return options.tile_m || extension_of(path) == ".las";
 }
 
 Status export_las(StoredMap& map, const std::string& store, const std::string& path,

@@ -11,6 +11,9 @@
 
 namespace fleetmap::apps {
 
+/// In small letters, with its dot.
+std::string extension_of(const std::string& path);
+
 /// Whether --out is to be LAS: FILE.las, or a folder of tiles.
 bool wants_las(const std::string& path, const LasOptions& options);
 

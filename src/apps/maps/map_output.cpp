@@ -1,7 +1,7 @@
 #include "map_output.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <filesystem>
 #include <ostream>
 #include <string>
@@ -34,15 +34,15 @@ Result<StoredMap> open(const MapOptions& options) {
 }
 
 bool is_point_file(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(file);
   return extension == ".ply" || extension == ".pcd";
 }
 
-/// Folders are made of the name; one with an ending was meant as a file.
+/// The name of a folder that is to be made ends as that of a picture.
 bool is_named_as_file(const std::string& folder) {
-  return !std::filesystem::is_directory(folder) && std::filesystem::path(folder).has_extension();
+  constexpr std::array kEndings{".tif", ".tiff", ".png", ".jpg", ".jpeg", ".svg", ".pdf"};
+  return !std::filesystem::is_directory(folder) &&
+         std::ranges::find(kEndings, extension_of(folder)) != kEndings.end();
 }
 
 CommandResult<ExitCode> print_json(const MapOptions& options, std::ostream& out) {

@@ -27,6 +27,7 @@ bool ProblemLog::note(const std::string& problem, bool is_total, bool first_look
   if (!is_total || has_grown) entry.last = now;
   entry.text = problem;
   entry.is_total = is_total;
+  entry.is_reported = true;
   entry.is_present = !is_total || (entry.last && now - *entry.last < kGrows);
   return entry.is_present;
 }
@@ -34,7 +35,7 @@ bool ProblemLog::note(const std::string& problem, bool is_total, bool first_look
 void ProblemLog::update(monitor::RobotNow& robot, Stamp now) {
   const bool first_look = !robots_.contains(robot.id);
   Entries& entries = robots_[robot.id];
-  for (auto& [kind, entry] : entries) entry.is_present = false;
+  for (auto& [kind, entry] : entries) entry.is_present = entry.is_reported = false;
   std::vector<std::string> present;
   for (const std::string& problem : robot.problems) {
     const bool is_total = std::ranges::find(robot.totals, problem) != robot.totals.end();
@@ -42,7 +43,8 @@ void ProblemLog::update(monitor::RobotNow& robot, Stamp now) {
   }
   std::erase_if(entries, [now](const auto& entry) {
     const Entry& one = entry.second;
-    return !one.is_present && !one.is_total && now - *one.last > kForgotten;
+    const bool is_old = !one.last || now - *one.last > kForgotten;
+    return !one.is_present && is_old && (!one.is_total || !one.is_reported);
   });
   std::vector<Entry> past;
   for (const auto& [kind, entry] : entries)

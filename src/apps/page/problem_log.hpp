@@ -25,6 +25,7 @@ class ProblemLog {
   struct Entry {
     std::string text;
     bool is_total = false;
+    bool is_reported = false;   ///< by the newest status
     std::optional<Stamp> last;  ///< it was there, or grew; empty: a total from before the first look
     bool is_present = false;
   };

@@ -39,7 +39,8 @@ bool is_over(Source source, std::string_view finding, const agent::Perception& p
     const auto behind = perception.clock_offsets().behind(source);
     return behind && std::abs(*behind) < sensor::ClockOffsets::kReportedOffset;
   }
-  if (finding.starts_with("no fix since ") || finding.starts_with("no sample since ")) {
+  if (finding.starts_with("no fix since ") || finding.starts_with("no fix in the first ") ||
+      finding.starts_with("no sample since ")) {
     const auto last = perception.last_sound(source);
     return last && now - *last < kSendsAgain;
   }

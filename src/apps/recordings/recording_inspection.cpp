@@ -25,7 +25,9 @@ CommandResult<ExitCode> inspect_recording(const RecordingOptions& options, std::
   std::ranges::move(done->failures(streams.scans()), std::back_inserter(findings));
   if (streams.scans() == 0) findings.push_back(no_scan(input->reader->counters()));
   std::ranges::move(unread_parts(input->reader->counters()), std::back_inserter(findings));
-  if (auto blind = streams.fixes_without_place(input->config.agent.perception.uses_gps))
+  const bool said = std::ranges::any_of(
+      findings, [](const std::string& one) { return one.find("without a position") != std::string::npos; });
+  if (auto blind = streams.fixes_without_place(input->config.agent.perception.uses_gps); blind && !said)
     findings.push_back(std::move(*blind));
   streams.print(out);
   for (const std::string& mount : input->prepared.mounts) out << mount << '\n';

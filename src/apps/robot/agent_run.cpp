@@ -169,6 +169,7 @@ CommandResult<ExitCode> run_agent(const AgentOptions& options, std::ostream& out
   const auto lidar = publish_lidar(config->agent.perception, **bus);
   if (!lidar) return exit_with(kFailed, lidar.error());
   const auto devices = publish_devices(config->agent.perception, **bus);
+  if (!devices) return exit_with(kBadConfiguration, devices.error());
   const auto page = page_of_robot(*page_config, config->agent.directory);
   if (!page) return exit_with(kFailed, page.error());
   const auto ros = ros_publisher_of(config->ros, **agent, **bus, *log);

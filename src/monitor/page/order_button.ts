@@ -11,6 +11,7 @@ const kWait_ms = 5000; // for the second press
 export class OrderButton {
   readonly root = el('button', {type: 'button', class: 'order'});
   private askedAt?: number;
+  private asked?: string; // the question then
   private pending = false; // ordered, and no newer status
   private text = '';
   private name = '';
@@ -40,12 +41,13 @@ export class OrderButton {
   /** To be called once a second: the question ends by itself. */
   refresh(): void {
     const question = this.waits() ? this.question() : undefined;
-    if (question === undefined) this.askedAt = undefined;
-    setText(this.root, question ?? this.text);
-    const name = question ? `${question} ${this.name}` : this.name;
+    if (question === undefined || question !== this.asked) this.askedAt = undefined;
+    const shown = this.waits() ? question : undefined;
+    setText(this.root, shown ?? this.text);
+    const name = shown ? `${shown} ${this.name}` : this.name;
     if (name === this.text) this.root.removeAttribute('aria-label');
     else this.root.setAttribute('aria-label', name);
-    this.root.classList.toggle('sure', question !== undefined);
+    this.root.classList.toggle('sure', shown !== undefined);
   }
 
   /** A newer status has come. */
@@ -56,8 +58,10 @@ export class OrderButton {
 
   /** Whether this press only asks. */
   private asks(): boolean {
-    const asks = this.question() !== undefined && !this.waits();
+    const question = this.question();
+    const asks = question !== undefined && !(this.waits() && question === this.asked);
     this.askedAt = asks ? performance.now() : undefined;
+    this.asked = question;
     this.refresh();
     if (asks) this.said(`Press again within 5 s: ${this.name}.`);
     return asks;

@@ -26,6 +26,17 @@ try {
   };
   const shown = () => [textOf(button.root), button.root.getAttribute('aria-label')];
 
+  // A question that changes between the presses is asked again.
+  await press();
+  question = 'Really call home now?';
+  await press();
+  assert.equal(orders, 0);
+  assert.equal(shown()[0], 'Really call home now?');
+  question = 'Really call home?';
+  button.refresh();
+  assert.equal(shown()[0], 'Call home');
+  said.length = 0;
+
   // The first press asks, the second orders, then none does until the next status.
   await press();
   assert.equal(orders, 0);
