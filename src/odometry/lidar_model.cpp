@@ -76,7 +76,8 @@ Result<LidarModel> lidar_model(std::string_view name) {
     if (model.name == name) return model;
     append_to_list(known, model.name);
   }
-  return failure("'" + std::string(name) + "' is unknown; expected one of " + known);
+  std::string message = "'";  // GCC 12 warns wrongly of a sum that begins with so short a literal
+  return failure(message.append(name).append("' is unknown; expected one of ").append(known));
 }
 
 }  // namespace fleetmap::odometry
