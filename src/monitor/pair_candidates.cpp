@@ -7,7 +7,7 @@ namespace fleetmap::monitor {
 namespace {
 
 /// "1 waits", "3 wait"
-std::string some(std::size_t count, const char* one, const char* more) {
+std::string some(std::uint64_t count, const char* one, const char* more) {
   return std::to_string(count) + ' ' + (count == 1 ? one : more);
 }
 
@@ -33,7 +33,7 @@ std::string unregistered(const PairCandidates& all) {
     add(some(all.not_received, "was", "were") + " not registered, since the cloud did not come");
   if (all.uninformative > 0)
     add(some(all.uninformative, "was", "were") +
-        " dropped, since the radio was busy and the alignment would have " + "added too little");
+        " dropped, since the radio was busy and the alignment would have added too little");
   if (all.overflowed > 0) add(some(all.overflowed, "was", "were") + " dropped, since too many waited");
   if (all.redundant > 0)
     add(some(all.redundant, "was", "were") + " left out beside another one of the same place");
@@ -57,8 +57,8 @@ std::string sentence(const PairCandidates& all) {
   if (said.empty()) said = "there is none any more";
   if (all.to_be_retried > 0)
     append_to_list(said,
-                   some(all.to_be_retried, "of those that failed", "of those that failed") +
-                       (all.ended ? " would have been tried again" : " will be tried again"),
+                   std::to_string(all.to_be_retried) + " of those that failed " +
+                       (all.ended ? "would have been tried again" : "will be tried again"),
                    "; ");
   return "Candidates of " + all.by.str() + " with " + all.with.str() + ": " + said + ".";
 }

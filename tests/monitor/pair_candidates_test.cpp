@@ -10,7 +10,12 @@ namespace {
 
 using testing::agent;
 
-PairCandidates between(const char* by, const char* with) { return {.by = agent(by), .with = agent(with)}; }
+PairCandidates between(const char* by, const char* with) {
+  PairCandidates all;
+  all.by = agent(by);
+  all.with = agent(with);
+  return all;
+}
 
 TEST(PairCandidates, each_state_has_its_words) {
   PairCandidates all = between("r1", "r2");

@@ -1,6 +1,7 @@
 #include "candidate_report.hpp"
 
 #include <array>
+#include <cstdint>
 #include <fstream>
 #include <utility>
 
@@ -12,7 +13,7 @@ using nlohmann::json;
 
 constexpr const char* kKey = "candidates_with";
 
-constexpr std::array<std::pair<const char*, std::size_t PairCandidates::*>, 10> kCounts{
+constexpr std::array<std::pair<const char*, std::uint64_t PairCandidates::*>, 10> kCounts{
     {{"waiting", &PairCandidates::waiting},
      {"requested", &PairCandidates::requested},
      {"registering", &PairCandidates::registering},
@@ -24,16 +25,26 @@ constexpr std::array<std::pair<const char*, std::size_t PairCandidates::*>, 10> 
      {"overflowed", &PairCandidates::overflowed},
      {"uninformative", &PairCandidates::uninformative}}};
 
+PairCandidates candidates_between(const AgentId& by, const AgentId& with,
+                                  const graph::CandidateCounts& counts) {
+  PairCandidates candidates;
+  static_cast<graph::CandidateCounts&>(candidates) = counts;
+  candidates.by = by;
+  candidates.with = with;
+  return candidates;
+}
+
 /// Adds those of the robot whose part of a report this is.
 void add_reported(const json& report, const AgentId& by, std::vector<PairCandidates>& all) {
   if (!report.is_object() || !report.contains(kKey) || !report[kKey].is_object()) return;
   for (const auto& [name, counts] : report[kKey].items()) {
     const auto with = AgentId::parse(name);
     if (!with || !counts.is_object()) continue;
-    PairCandidates one{.by = by, .with = *with, .ended = true};
+    PairCandidates one = candidates_between(by, *with, {});
+    one.ended = true;
     for (const auto& [key, count] : kCounts) {
       if (const auto found = counts.find(key); found != counts.end() && found->is_number_unsigned())
-        one.*count = found->get<std::size_t>();
+        one.*count = found->get<std::uint64_t>();
     }
     all.push_back(one);
   }
@@ -44,17 +55,8 @@ void add_reported(const json& report, const AgentId& by, std::vector<PairCandida
 std::vector<PairCandidates> candidates_of(const agent::Agent& agent) {
   std::vector<PairCandidates> all;
   for (const auto& [peer, now] : agent.candidates_by_peer()) {
-    PairCandidates one{.by = agent.config().id, .with = peer, .heard = now.heard};
-    one.waiting = now.waiting;
-    one.requested = now.requested;
-    one.registering = now.registering;
-    one.aligned = now.aligned;
-    one.rejected = now.rejected;
-    one.not_received = now.not_received;
-    one.to_be_retried = now.to_be_retried;
-    one.redundant = now.redundant;
-    one.overflowed = now.overflowed;
-    one.uninformative = now.uninformative;
+    PairCandidates one = candidates_between(agent.config().id, peer, now);
+    one.heard = now.heard;
     all.push_back(one);
   }
   return all;

@@ -16,7 +16,9 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 PairCandidates counted(const AgentId& by, const AgentId& with) {
-  PairCandidates one{.by = by, .with = with};
+  PairCandidates one;
+  one.by = by;
+  one.with = with;
   one.waiting = 1;
   one.requested = 2;
   one.registering = 3;
