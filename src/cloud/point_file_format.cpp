@@ -1,15 +1,13 @@
 #include "point_file_format.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <limits>
+
+#include "fleetmap/core/lower_case.hpp"
 
 namespace fleetmap::cloud {
 
 Result<PointFileFormat> format_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(file.extension().string());
   if (extension == ".ply") return PointFileFormat::ply;
   if (extension == ".pcd") return PointFileFormat::pcd;
   return failure("not a .ply or .pcd file");

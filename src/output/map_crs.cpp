@@ -1,13 +1,12 @@
 #include "fleetmap/output/map_crs.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "crs_wkt.hpp"
+#include "fleetmap/core/lower_case.hpp"
 
 namespace fleetmap::output {
 namespace {
@@ -28,9 +27,7 @@ std::string degrees(double radians) {
 }  // namespace
 
 Result<CrsRequest> parse_crs(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(text);
   if (lower == "utm") return CrsRequest{};
   if (lower == "enu") return CrsRequest{CrsRequest::Kind::enu, {}};
   const std::string prefix = "epsg:";

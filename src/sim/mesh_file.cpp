@@ -1,8 +1,6 @@
 #include "fleetmap/sim/mesh_file.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <fstream>
@@ -10,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "fleetmap/core/lower_case.hpp"
 #include "fleetmap/core/whole_file.hpp"
 #include "mesh_text.hpp"
 #include "obj_format.hpp"
@@ -23,13 +22,6 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, kMaterials> kNames = {"ground", "glass", "metal", "concrete",
                                                              "vegetation"};
 constexpr std::size_t kFlushBytes = 1 << 20;
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 Result<std::string> content_of(const fs::path& file) {
   std::error_code error;

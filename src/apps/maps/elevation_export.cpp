@@ -3,7 +3,6 @@
 #include <ostream>
 
 #include "fleetmap/output/elevation_map.hpp"
-#include "fleetmap/output/sea_level_heights.hpp"
 #include "las_export.hpp"
 #include "version.hpp"
 
@@ -11,9 +10,7 @@ namespace fleetmap::apps {
 
 Status export_elevation(StoredMap& map, const MapOptions& options, std::ostream& out) {
   const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
-  const auto crs = crs_of(
-      options.las, {map.recipe.origin, parts.main.georeferenced, output::has_sea_level_heights(map.store)},
-      options.store);
+  const auto crs = crs_of(options.las, map, parts.main, options.store);
   if (!crs) return tl::unexpected(crs.error());
   output::ElevationConfig config;
   if (options.cell_m) config.cell_m = *options.cell_m;

@@ -1,12 +1,11 @@
 #include "las_export.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <utility>
 
+#include "fleetmap/core/lower_case.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/las_map.hpp"
 #include "fleetmap/output/sea_level_heights.hpp"
@@ -31,7 +30,7 @@ void print_las(std::ostream& out, const output::WrittenLas& written, const std::
 
 }  // namespace
 
-Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace& place,
+Result<output::MapCrs> crs_of(const LasOptions& options, const StoredMap& map, const output::MapPart& part,
                               const std::string& store) {
   const auto request = output::parse_crs(options.crs.value_or("utm"));
   if (!request) return tl::unexpected(request.error());
@@ -41,6 +40,8 @@ Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace&
     if (!loaded) return tl::unexpected(loaded.error());
     geoid = std::move(*loaded);
   }
+  const output::MapPlace place{map.recipe.origin, part.georeferenced,
+                               output::has_sea_level_heights(map.store)};
   auto crs = output::MapCrs::of(*request, place, std::move(geoid));
   if (!crs) return failure(store + ": " + crs.error().message);
   return crs;
@@ -54,23 +55,14 @@ void name_parts_apart(const output::MapParts& parts) {
   }
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 bool wants_las(const std::string& path, const LasOptions& options) {
-  return options.tile_m || extension_of(path) == ".las";
+  return options.tile_m || lower_case(std::filesystem::path(path).extension().string()) == ".las";
 }
 
 Status export_las(StoredMap& map, const std::string& store, const std::string& path,
                   const LasOptions& options, std::ostream& out) {
   const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
-  const auto crs =
-      crs_of(options, {map.recipe.origin, parts.main.georeferenced, output::has_sea_level_heights(map.store)},
-             store);
+  const auto crs = crs_of(options, map, parts.main, store);
   if (!crs) return tl::unexpected(crs.error());
   const output::LasMapConfig config{path, options.tile_m, std::string("fleetmap ") + kVersion};
   const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);

@@ -11,14 +11,11 @@
 
 namespace fleetmap::apps {
 
-/// In small letters, with its dot.
-std::string extension_of(const std::string& path);
-
 /// Whether --out is to be LAS: FILE.las, or a folder of tiles.
 bool wants_las(const std::string& path, const LasOptions& options);
 
 /// The reference system and geoid that the options name. `store`: its file, as errors name it.
-Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace& place,
+Result<output::MapCrs> crs_of(const LasOptions& options, const StoredMap& map, const output::MapPart& part,
                               const std::string& store);
 /// Names, on standard error, frames that cannot be laid onto the map.
 void name_parts_apart(const output::MapParts& parts);

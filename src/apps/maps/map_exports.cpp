@@ -12,6 +12,7 @@
 #include "fleetmap/output/sea_level_heights.hpp"
 #include "fleetmap/output/track_files.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
+#include "las_export.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
@@ -19,7 +20,8 @@ namespace fleetmap::apps {
 Result<std::string> export_points(StoredMap& map, const std::string& store,
                                   const std::filesystem::path& out) {
   const std::array files{out};
-  const output::MapPart main = output::map_parts(map.items.nodes, map.placement).main;
+  const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
+  const output::MapPart& main = parts.main;
   auto merge = output::tiled_map(map.store, main.T_map_node, map.recipe.merge);
   if (!merge) return tl::unexpected(merge.error());
   if (const Status some = output::require_points(merge->outline()); !some)
@@ -28,6 +30,7 @@ Result<std::string> export_points(StoredMap& map, const std::string& store,
       *merge, files, output::map_comments(map.store, main, map.recipe.origin, map.recipe.merge));
   if (!written) return tl::unexpected(written.error());
   name_unreadable(written->outline);
+  name_parts_apart(parts);
   return out.string() + ": " + std::to_string(written->points) + " points from " +
          std::to_string(written->outline.submaps) + " submaps";
 }
@@ -36,7 +39,8 @@ Result<std::string> export_tracks(const StoredMap& map, const std::string& store
                                   const std::filesystem::path& out,
                                   const std::optional<std::string>& geoid_name) {
   const std::vector<graph::Node>& nodes = map.items.nodes;
-  const auto main = output::map_parts(nodes, map.placement).main;
+  const output::MapParts parts = output::map_parts(nodes, map.placement);
+  const output::MapPart& main = parts.main;
   if (!main.georeferenced)
     return failure(store +
                    ": no node of its map has GPS, so that nobody knows where on Earth its tracks are");
@@ -53,6 +57,7 @@ Result<std::string> export_tracks(const StoredMap& map, const std::string& store
           : Result<std::string>(output::to_geojson(nodes, main.T_map_node, map.recipe.origin, above_sea));
   if (!text) return failure(store + ": " + text.error().message);
   if (const Status written = write_whole_file(out, *text); !written) return tl::unexpected(written.error());
+  name_parts_apart(parts);
   return out.string() + ": " + std::to_string(main.T_map_node.size()) + " nodes";
 }
 

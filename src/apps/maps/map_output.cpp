@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "elevation_export.hpp"
+#include "fleetmap/core/lower_case.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "las_export.hpp"
 #include "map_exports.hpp"
@@ -34,15 +36,15 @@ Result<StoredMap> open(const MapOptions& options) {
 }
 
 bool is_point_file(const std::string& file) {
-  const std::string extension = extension_of(file);
+  const std::string extension = lower_case(std::filesystem::path(file).extension().string());
   return extension == ".ply" || extension == ".pcd";
 }
 
-/// The name of a folder that is to be made ends as that of a picture.
+/// True if the name of a folder that is to be made ends as that of a picture.
 bool is_named_as_file(const std::string& folder) {
   constexpr std::array kEndings{".tif", ".tiff", ".png", ".jpg", ".jpeg", ".svg", ".pdf"};
-  return !std::filesystem::is_directory(folder) &&
-         std::ranges::find(kEndings, extension_of(folder)) != kEndings.end();
+  const std::string extension = lower_case(std::filesystem::path(folder).extension().string());
+  return !is_folder(folder) && std::ranges::find(kEndings, extension) != kEndings.end();
 }
 
 CommandResult<ExitCode> print_json(const MapOptions& options, std::ostream& out) {
@@ -90,10 +92,7 @@ CommandResult<ExitCode> write_map(const MapOptions& options, std::ostream& out) 
   auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
   if (const Status valid = map->recipe.merge.validate(); !valid) return exit_with(kUsage, valid.error());
-  if (!las && !rasters) {
-    name_parts_apart(output::map_parts(map->items.nodes, map->placement));
-    return print_written(export_points(*map, options.store, options.out), out);
-  }
+  if (!las && !rasters) return print_written(export_points(*map, options.store, options.out), out);
   const Status written = rasters ? export_elevation(*map, options, out)
                                  : export_las(*map, options.store, options.out, options.las, out);
   return written ? CommandResult<ExitCode>(kDone) : exit_with(kFailed, written.error());
@@ -105,7 +104,6 @@ CommandResult<ExitCode> write_tracks(const MapOptions& options, std::ostream& ou
     return exit_with(kUsage, {"--geoid is of GPX; heights of GeoJSON are above the ellipsoid (RFC 7946)"});
   const auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
-  name_parts_apart(output::map_parts(map->items.nodes, map->placement));
   return print_written(export_tracks(*map, options.store, options.out, geoid), out);
 }
 
