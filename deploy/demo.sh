@@ -23,7 +23,7 @@ cleanup() {
 }
 trap cleanup EXIT
 echo "building (the first time takes some minutes)"
-cmake --preset release >"$log" 2>&1 || { cat "$log"; exit 1; }
+cmake --preset release -DFLEETMAP_UNITY=ON >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build --preset release --target fleetmap
 fleetmap=build/release/bin/fleetmap
 

@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 root=$PWD
 
 ./deploy/install-dependencies.sh
-cmake --preset release > /dev/null
+cmake --preset release -DFLEETMAP_UNITY=ON > /dev/null
 cmake --build --preset release --target fleetmap
 (cd build/release && rm -f fleetmap*.deb && cpack > cpack.log) || { cat build/release/cpack.log; exit 1; }
 for package in build/release/fleetmap*.deb; do

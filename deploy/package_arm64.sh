@@ -94,7 +94,7 @@ for package in build/arm64/fleetmap*.deb; do
 done
 [ "${1:-}" = --test ] || exit 0
 
-cmake --preset release > /dev/null
+cmake --preset release -DFLEETMAP_UNITY=ON > /dev/null
 cmake --build --preset release --target fleetmap
 here=$root/build/release/bin/fleetmap
 scratch=$(mktemp -d)
