@@ -262,8 +262,8 @@ std::string finding_of(TimeUnit unit) {
       return converted("nanoseconds");
     case TimeUnit::kUnclear:
       return "LiDAR: point times are floats that last a sweep of 5 ms to 1 s in no unit; they are not used, "
-             "so "
-             "the motion within a sweep is taken from the order of the points. Correct the driver: seconds "
+             "so the motion within a sweep is taken from the order of the points. Correct the driver: "
+             "seconds "
              "after the stamp";
     default:
       return {};

@@ -269,10 +269,9 @@ bool SensorHealth::check(Fix& fix) {
   if (!flat) {
     if (fix.valid && fix.above_sea_level && !std::exchange(above_sea_level_, true))
       state(
-          "GPS: heights are above mean sea level, since the receiver states none above the ellipsoid: the "
-          "map "
-          "is up to 100 m lower or higher than those of other robots. Set gps.geoid: egm2008-5 where the "
-          "receiver is read, on all robots, or let the receiver state the height of the geoid");
+          "GPS: heights are above mean sea level, since the receiver states none above the ellipsoid: "
+          "the map is up to 100 m lower or higher than those of other robots. Set gps.geoid: egm2008-5 where "
+          "the receiver is read, on all robots, or let the receiver state the height of the geoid");
     fix.valid ? silences_.add_fix(fix.stamp) : silences_.add_empty_fix();
     gps_.add(fix);
     fix.position.altitude -= gps_.height_correction();

@@ -25,7 +25,8 @@ SilenceRule fix_silence() {
       .found_in_one = 600.0,
       .remedy = "the place is that of the odometry there. No message came: check cable, driver and its topic",
       .empty_remedy =
-          "the place is that of the odometry there. Outages below trees and roofs are normal; else check "
+          "messages came without a position (status -1); the place is that of the odometry there. Outages "
+          "below trees and roofs are normal; else check "
           "the antenna and its cable"};
 }
 
@@ -95,7 +96,7 @@ void StreamSilence::check_empty() {
 
 std::string StreamSilence::reason() const {
   if (empty_ == 0) return rule_.remedy;
-  return std::to_string(empty_) + " messages came without a position (status -1); " + rule_.empty_remedy;
+  return std::to_string(empty_) + " " + rule_.empty_remedy;
 }
 
 std::optional<std::string> StreamSilence::take_finding() { return std::exchange(finding_, std::nullopt); }

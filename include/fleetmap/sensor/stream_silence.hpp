@@ -19,7 +19,7 @@ struct SilenceRule {
   double found_after = 10.0;  ///< s in gaps
   double found_in_one = 1e9;  ///< s of one gap, whatever the share
   std::string remedy;
-  std::string empty_remedy;  ///< while messages come that say nothing
+  std::string empty_remedy;  ///< behind the number of messages that came and say nothing
 };
 SilenceRule fix_silence();
 SilenceRule wheel_silence();

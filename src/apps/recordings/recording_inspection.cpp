@@ -13,6 +13,7 @@
 #include "unread_parts.hpp"
 
 namespace fleetmap::apps {
+
 CommandResult<ExitCode> inspect_recording(const RecordingOptions& options, std::ostream& out) {
   const auto input = open_recording(options);
   if (!input) return tl::unexpected(input.error());

@@ -24,8 +24,7 @@ std::optional<std::string> StreamSummary::fixes_without_place(bool uses_gps) con
   if (!uses_gps || fixes() == 0 || places_ > 0) return std::nullopt;
   return "GPS: " + std::to_string(fixes()) +
          " fixes came, all without a position (status -1): check the antenna and its cable, and wait under "
-         "open "
-         "sky until the receiver has a position. A robot without GPS has gps.use: false";
+         "open sky until the receiver has a position. A robot without GPS has gps.use: false";
 }
 
 void StreamSummary::print(std::ostream& out) const {

@@ -129,7 +129,7 @@ export function comparable(a: {floating?: number} | undefined, b: {floating?: nu
 /** JSON has null for what is infinite or no number. */
 export const isNumber = (value: unknown): value is number => Number.isFinite(value);
 
-/** By node, m: its own sigma, else that of the nearest node of its robot that has one; only some are computed. */
+/** By node, m: its own sigma, else that of its robot's node before that has one, else after; only some are computed. */
 export function sigmasOf(nodes: FleetNode[]): Map<string, number> {
   const sigmas = new Map<string, number>();
   for (const order of [nodes, [...nodes].reverse()]) {

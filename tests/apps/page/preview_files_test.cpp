@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 class PreviewFilesTest : public ::testing::Test {
  protected:
   std::filesystem::path path(const std::string& name) const { return days_.path(name); }
-  /// All submaps of `store` have previews in `file` or in `others`.
+  /// All submaps of `store` have previews in `file`.
   static bool holds_all(const std::filesystem::path& store, const std::filesystem::path& file) {
     const auto opened = store::Store::open_read_only(store).value();
     monitor::PreviewWriter previews(file);
