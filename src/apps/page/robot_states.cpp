@@ -171,7 +171,7 @@ std::string activity_of(const MissionReport& report, const std::vector<planning:
 
 void add_silence(double lost_after, monitor::RobotNow& robot) {
   if (!robot.heard.empty() && robot.heard.front().seconds_ago > lost_after)
-    robot.problems.insert(robot.problems.begin(), "is heard on no radio");
+    robot.problems.emplace(robot.problems.begin(), "is heard on no radio");
 }
 
 std::vector<monitor::RobotNow> robot_states(const FleetState& fleet) {
