@@ -14,8 +14,9 @@ printf '#!/bin/sh\n' | tee "$tree/deploy/install-dependencies.sh" "$folder/bin/c
 cat >"$tree/build/release/bin/fleetmap" <<'STAND_IN'
 #!/usr/bin/env bash
 case "$1" in
-  sim) exec perl -e '$SIG{INT} = sub { exit 0 }; select(undef, undef, undef, 0.05) while 1' ;;
-  agent) echo "$5: $ROWS rows driven by the fleet" ;;
+  sim) exec perl -e '$SIG{INT} = sub { exit 0 }; open(F, ">", $ENV{HEARS}); sleep 1 while 1' ;;
+  # A twin that does not listen yet would miss its end: shells let what runs in the background ignore SIGINT.
+  agent) until [ -e "$HEARS" ]; do :; done; echo "$5: $ROWS rows driven by the fleet" ;;
   map) echo '  "hash": "0123456789abcdef0123456789abcdef",' ;;
 esac
 STAND_IN
@@ -24,7 +25,8 @@ chmod +x "$tree/deploy/install-dependencies.sh" "$folder/bin/"* "$tree/build/rel
 # expect ROWS CODE: the demo of robots that say they drove ROWS ends with CODE.
 expect() {
   local code=0 last
-  ROWS=$1 PATH="$folder/bin:$PATH" "$tree/deploy/demo.sh" "$out" >"$folder/said" 2>&1 || code=$?
+  rm -f "$folder/hears"
+  HEARS="$folder/hears" ROWS=$1 PATH="$folder/bin:$PATH" "$tree/deploy/demo.sh" "$out" >"$folder/said" 2>&1 || code=$?
   last=$(tail -n 1 "$folder/said")
   [ "$code" -eq "$2" ] || { echo "exit code $code instead of $2:"; cat "$folder/said"; exit 1; }
   [[ "$last" == "look at it: "* ]] || { echo "the last line does not open the page: $last"; exit 1; }
