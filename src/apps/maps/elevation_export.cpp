@@ -1,9 +1,10 @@
 #include "elevation_export.hpp"
 
-#include <ostream>
+#include <iostream>
 
 #include "fleetmap/output/elevation_map.hpp"
 #include "las_export.hpp"
+#include "parts_apart.hpp"
 #include "version.hpp"
 
 namespace fleetmap::apps {
@@ -22,7 +23,7 @@ Status export_elevation(StoredMap& map, const MapOptions& options, std::ostream&
       << ", ground seen in " << written->ground << " of them\n"
       << crs->text() << '\n';
   name_unreadable(written->outline);
-  name_parts_apart(parts);
+  name_parts_apart(parts, std::cerr);
   return {};
 }
 

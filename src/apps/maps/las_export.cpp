@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "fleetmap/core/lower_case.hpp"
-#include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/las_map.hpp"
 #include "fleetmap/output/sea_level_heights.hpp"
+#include "parts_apart.hpp"
 #include "version.hpp"
 
 namespace fleetmap::apps {
@@ -47,14 +47,6 @@ Result<output::MapCrs> crs_of(const LasOptions& options, const StoredMap& map, c
   return crs;
 }
 
-void name_parts_apart(const output::MapParts& parts) {
-  for (const output::MapPart& part : parts.apart) {
-    std::cerr << "not in it, for nobody knows where to lay them:";
-    for (const graph::FrameId& frame : part.frames) std::cerr << ' ' << graph::to_string(frame);
-    std::cerr << '\n';
-  }
-}
-
 bool wants_las(const std::string& path, const LasOptions& options) {
   return options.tile_m || lower_case(std::filesystem::path(path).extension().string()) == ".las";
 }
@@ -68,7 +60,7 @@ Status export_las(StoredMap& map, const std::string& store, const std::string& p
   const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);
   if (!written) return failure(store + ": " + written.error().message);
   print_las(out, *written, path, *crs, options);
-  name_parts_apart(parts);
+  name_parts_apart(parts, std::cerr);
   return {};
 }
 

@@ -17,8 +17,6 @@ bool wants_las(const std::string& path, const LasOptions& options);
 /// The reference system and geoid that the options name. `store`: its file, as errors name it.
 Result<output::MapCrs> crs_of(const LasOptions& options, const StoredMap& map, const output::MapPart& part,
                               const std::string& store);
-/// Names, on standard error, frames that cannot be laid onto the map.
-void name_parts_apart(const output::MapParts& parts);
 
 /// Writes the main part of the map, prints to `out` what was written and names what was left out. Fails for a
 /// map that is not georeferenced, unless it stays in its own frame. `store`: its file, as errors name it.

@@ -1,6 +1,7 @@
 #include "map_exports.hpp"
 
 #include <array>
+#include <iostream>
 #include <optional>
 #include <utility>
 
@@ -12,8 +13,8 @@
 #include "fleetmap/output/sea_level_heights.hpp"
 #include "fleetmap/output/track_files.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
-#include "las_export.hpp"
 #include "options.hpp"
+#include "parts_apart.hpp"
 
 namespace fleetmap::apps {
 
@@ -30,7 +31,7 @@ Result<std::string> export_points(StoredMap& map, const std::string& store,
       *merge, files, output::map_comments(map.store, main, map.recipe.origin, map.recipe.merge));
   if (!written) return tl::unexpected(written.error());
   name_unreadable(written->outline);
-  name_parts_apart(parts);
+  name_parts_apart(parts, std::cerr);
   return out.string() + ": " + std::to_string(written->points) + " points from " +
          std::to_string(written->outline.submaps) + " submaps";
 }
@@ -57,7 +58,7 @@ Result<std::string> export_tracks(const StoredMap& map, const std::string& store
           : Result<std::string>(output::to_geojson(nodes, main.T_map_node, map.recipe.origin, above_sea));
   if (!text) return failure(store + ": " + text.error().message);
   if (const Status written = write_whole_file(out, *text); !written) return tl::unexpected(written.error());
-  name_parts_apart(parts);
+  name_parts_apart(parts, std::cerr);
   return out.string() + ": " + std::to_string(main.T_map_node.size()) + " nodes";
 }
 

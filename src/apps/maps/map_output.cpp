@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <ostream>
+#include <iostream>
 #include <string>
 #include <utility>
 
@@ -14,6 +14,7 @@
 #include "las_export.hpp"
 #include "map_exports.hpp"
 #include "map_info.hpp"
+#include "parts_apart.hpp"
 #include "store_summary.hpp"
 #include "stored_map.hpp"
 
@@ -117,7 +118,7 @@ CommandResult<ExitCode> draw_map(const MapOptions& options, std::ostream& out) {
     return exit_with(kUsage, {options.out + ": there are several pictures; name a folder for them"});
   auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
-  name_parts_apart(output::map_parts(map->items.nodes, map->placement));
+  name_parts_apart(output::map_parts(map->items.nodes, map->placement), std::cerr);
   const auto files = export_pictures(*map, options.store, options.out);
   if (!files) return exit_with(kFailed, files.error());
   for (const std::filesystem::path& file : *files) out << file.string() << '\n';
