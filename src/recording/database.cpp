@@ -1,27 +1,8 @@
 #include "database.hpp"
 
-#include <cctype>
+#include "fleetmap/core/file_uri.hpp"
 
 namespace fleetmap::recording {
-namespace {
-
-/// "file:" URI of a path; SQLite takes %HH for whatever means something in a URI.
-std::string uri_of(const std::filesystem::path& file, const char* query) {
-  constexpr char kDigits[] = "0123456789ABCDEF";
-  std::string uri = "file:";
-  for (const char c : file.string()) {
-    if (c == '%' || c == '?' || c == '#') {
-      const auto octet = static_cast<unsigned char>(c);
-      uri += {'%', kDigits[octet >> 4], kDigits[octet & 0xf]};
-    } else {
-      uri += c;
-    }
-  }
-  return uri + query;
-}
-
-}  // namespace
-
 std::string Statement::text(int column) const {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
   return text == nullptr ? std::string() : std::string(text);
@@ -42,7 +23,7 @@ Result<Database> Database::open(const std::filesystem::path& file, const std::st
 
 Result<Database> Database::open_for_reading(const std::filesystem::path& file) {
   for (const char* query : {"", "?immutable=1"}) {
-    auto database = open(file, uri_of(file, query), SQLITE_OPEN_READONLY);
+    auto database = open(file, file_uri(file, query), SQLITE_OPEN_READONLY);
     if (!database) return database;
     auto probe = database->prepare("SELECT count(*) FROM sqlite_master");
     const bool readable = probe && probe->step() == SQLITE_ROW;
@@ -58,7 +39,7 @@ Result<Database> Database::open_for_reading(const std::filesystem::path& file) {
 }
 
 Result<Database> Database::create(const std::filesystem::path& file) {
-  return open(file, uri_of(file, ""), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  return open(file, file_uri(file, ""), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
 }
 
 Result<Statement> Database::prepare(const char* sql) const {

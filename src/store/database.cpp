@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <utility>
 
 #include "big_endian.hpp"
+#include "fleetmap/core/file_uri.hpp"
 #include "log_scan.hpp"
 
 namespace fleetmap::store {
@@ -112,6 +114,21 @@ int after_commit(void* state, sqlite3* db, const char* name, int frames) {
   return SQLITE_OK;  // the commit itself is done
 }
 
+/// SQLite cannot make the index of the log, which it needs beside the file even to read it.
+bool cannot_write_beside(sqlite3* db) {
+  const int code = sqlite3_exec(db, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr) & 0xff;
+  return code == SQLITE_CANTOPEN || code == SQLITE_READONLY;
+}
+
+/// A log or a journal beside the file has changes that the file lacks.
+bool has_unmoved_changes(const std::filesystem::path& path) {
+  return std::ranges::any_of(std::array{"-wal", "-journal"}, [&](const char* suffix) {
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(path.string() + suffix, none);
+    return !none && bytes > 0;
+  });
+}
+
 }  // namespace
 
 void LogState::note_commit(std::size_t all_frames) {
@@ -178,11 +195,10 @@ ByteView Statement::blob(int column) const {
   return {data, static_cast<std::size_t>(sqlite3_column_bytes(stmt_, column))};
 }
 
-Result<Database> Database::open(const std::filesystem::path& path, bool read_only,
-                                const std::string& file_system) {
+Result<Database> Database::connect(const std::filesystem::path& path, const std::string& name, int flags,
+                                   const std::string& file_system) {
   sqlite3* handle = nullptr;
-  const int flags = read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int code = sqlite3_open_v2(path.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX,
+  const int code = sqlite3_open_v2(name.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX,
                                    file_system.empty() ? nullptr : file_system.c_str());
   Database db;
   db.db_.reset(handle);
@@ -192,8 +208,22 @@ Result<Database> Database::open(const std::filesystem::path& path, bool read_onl
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
   sqlite3_extended_result_codes(handle, 1);
   db.log_->db = handle;
-  if (!read_only) sqlite3_wal_hook(handle, after_commit, db.log_.get());
   return db;
+}
+
+Result<Database> Database::open(const std::filesystem::path& path, bool read_only,
+                                const std::string& file_system) {
+  const int flags = read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  auto db = connect(path, path.string(), flags, file_system);
+  if (!db) return db;
+  if (!read_only) sqlite3_wal_hook(db->db_.get(), after_commit, db->log_.get());
+  if (!read_only || !cannot_write_beside(db->db_.get())) return db;
+  if (has_unmoved_changes(path)) {
+    return failure(path.string() + ": cannot be read where it lies, because the log beside it (-wal) holds " +
+                   "a part of it and nothing can be written there; copy both to a folder that can be " +
+                   "written, and read the copy");
+  }
+  return connect(path, file_uri(path, "?immutable=1"), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, file_system);
 }
 
 Status Database::execute(const char* sql) {

@@ -59,7 +59,9 @@ class Statement {
 /// log's durability (LogState) needs SQLite's C interface in any case.
 class Database {
  public:
-  /// `file_system`: name of a SQLite VFS; empty: the system's own.
+  /// To be read, a file may lie where nothing can be written: on a medium that is mounted read-only, or in
+  /// another user's folder. It is then read without locks, as one that nobody changes, and opening fails if a
+  /// log with content lies beside it. `file_system`: name of a SQLite VFS; empty: the system's own.
   static Result<Database> open(const std::filesystem::path& path, bool read_only,
                                const std::string& file_system = {});
 
@@ -83,6 +85,8 @@ class Database {
   tl::unexpected<Error> error(std::string_view doing) const;
 
  private:
+  static Result<Database> connect(const std::filesystem::path& path, const std::string& name, int flags,
+                                  const std::string& file_system);
   std::string file() const;
   struct Close {
     void operator()(sqlite3* db) const { sqlite3_close_v2(db); }

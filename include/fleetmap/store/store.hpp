@@ -82,7 +82,8 @@ class Store {
   /// for writing, or cannot be written.
   static Result<Store> open(const std::filesystem::path& path, const AgentId& self,
                             const StoreConfig& config = {});
-  /// Opens any agent's store for reading, also while its agent runs. Puts fail.
+  /// Opens any agent's store for reading, also while its agent runs, and where nothing can be written beside
+  /// it (read-only media, folders of others), unless a log with content lies there. Puts fail.
   static Result<Store> open_read_only(const std::filesystem::path& path);
 
   Store(Store&&) noexcept;
