@@ -82,6 +82,23 @@ bool flush(GDALDataset& dataset) {
   return CPLGetLastErrorType() != CE_Failure && CPLGetLastErrorType() != CE_Fatal;
 }
 
+/// The words of TIFF's tags, where the dataset has the tag.
+std::string tag_of(GDALDataset& dataset, const char* tag) {
+  const char* text = dataset.GetMetadataItem(tag);
+  return text == nullptr ? std::string() : std::string(text);
+}
+
+/// States what the shades are, and what the heights are that they were made of.
+bool describe_shade(GDALDataset& heights, GDALDataset& shade) {
+  const std::string text =
+      "Hillshade: Horn's slope, light from the north-west at 45 deg, 1 (dark) to 255. Of " +
+      std::string(heights.GetRasterBand(1)->GetDescription()) + ": " +
+      tag_of(heights, "TIFFTAG_IMAGEDESCRIPTION");
+  shade.GetRasterBand(1)->SetDescription("hillshade");
+  return shade.SetMetadataItem("TIFFTAG_IMAGEDESCRIPTION", text.c_str()) == CE_None &&
+         shade.SetMetadataItem("TIFFTAG_SOFTWARE", tag_of(heights, "TIFFTAG_SOFTWARE").c_str()) == CE_None;
+}
+
 }  // namespace
 
 extern "C" bool fleetmap_write_geotiff_band(const GeoTiffBand& band, std::string& error) {
@@ -106,6 +123,6 @@ extern "C" bool fleetmap_write_hillshade(const std::string& heights, const std::
   int usage_error = 0;
   const Dataset shade(static_cast<GDALDataset*>(
       GDALDEMProcessing(file.c_str(), source.get(), "hillshade", nullptr, options.get(), &usage_error)));
-  if (!shade || !flush(*shade)) return failed(file, error);
+  if (!shade || !describe_shade(*source, *shade) || !flush(*shade)) return failed(file, error);
   return true;
 }

@@ -19,7 +19,8 @@ struct GeoTiffBand {
 /// Functions of libfleetmap_geotiff.so, the only part that links GDAL: its hundred libraries would take 80 ms
 /// and 28 MB of every start of the program. Each returns false and sets `error` where it fails.
 using WriteGeoTiffBand = bool (*)(const GeoTiffBand& band, std::string& error);
-/// The hillshade (gdaldem: Horn's slope, light from the north-west at 45 deg) of a GeoTIFF of heights.
+/// The hillshade (gdaldem: Horn's slope, light from the north-west at 45 deg) of a GeoTIFF of heights, whose
+/// texts it states.
 using WriteHillshade = bool (*)(const std::string& heights, const std::string& file, std::string& error);
 inline constexpr const char* kWriteGeoTiffBand = "fleetmap_write_geotiff_band";
 inline constexpr const char* kWriteHillshade = "fleetmap_write_hillshade";

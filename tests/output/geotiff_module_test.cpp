@@ -17,9 +17,11 @@
 namespace fleetmap::output {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::kNaN;
+using ::testing::StartsWith;
 
 std::unique_ptr<GDALDataset> opened_file(const std::filesystem::path& file) {
   GDALAllRegister();
@@ -118,6 +120,11 @@ TEST_F(GeoTiffModule, TheHillshadeIsBrightTowardsTheLight) {
   std::array<double, 6> transform{};
   ASSERT_EQ(dataset->GetGeoTransform(transform.data()), CE_None);
   EXPECT_EQ(transform[0], 412'000.5);
+  EXPECT_STREQ(dataset->GetRasterBand(1)->GetDescription(), "hillshade");
+  EXPECT_THAT(
+      dataset->GetMetadataItem("TIFFTAG_IMAGEDESCRIPTION"),
+      AllOf(StartsWith("Hillshade: "), HasSubstr("north-west"), HasSubstr("Of ground: Heights: metres")));
+  EXPECT_STREQ(dataset->GetMetadataItem("TIFFTAG_SOFTWARE"), "fleetmap 1");
 }
 
 TEST_F(GeoTiffModule, ErrorsNameTheFileAndTheReason) {
