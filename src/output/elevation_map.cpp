@@ -119,9 +119,10 @@ Result<WrittenElevation> write_elevation(store::Store& store, const std::map<Nod
   if (!folder) return tl::unexpected(folder.error());
   auto tiled = tiled_map(store, T_map_node, merge);
   if (!tiled) return tl::unexpected(tiled.error());
-  if (const Status some = require_points(tiled->outline()); !some) return tl::unexpected(some.error());
+  if (const Status some = require_points(tiled->outline()); !some)
+    return failure(store.path().string() + ": " + some.error().message);
   const auto raster = elevation_of(*tiled, crs, config);
-  if (!raster) return tl::unexpected(raster.error());
+  if (!raster) return failure(store.path().string() + ": " + raster.error().message);
   Status written = write_rasters(*writer, *raster, crs, software, folder->part());
   if (written) written = folder->finish();
   if (!written) return tl::unexpected(written.error());

@@ -87,7 +87,8 @@ std::size_t count_of(const cloud::LasWriter&) { return 1; }
 std::size_t count_of(const cloud::LasTiles& tiles) { return tiles.files(); }
 
 template <class Files>
-Result<WrittenLas> stream(store::TiledMerge& merge, const MapCrs& crs, Result<Files> files) {
+Result<WrittenLas> stream(const store::Store& store, store::TiledMerge& merge, const MapCrs& crs,
+                          Result<Files> files) {
   constexpr std::size_t kBlock = 65'536;  // points in memory, beside those of the merge
   if (!files) return tl::unexpected(files.error());
   const double gain = las_intensity_gain(merge.outline().max_intensity);
@@ -103,7 +104,8 @@ Result<WrittenLas> stream(store::TiledMerge& merge, const MapCrs& crs, Result<Fi
   if (!streamed) return tl::unexpected(streamed.error());
   if (files->points() == 0)
     return failure(
-        "the map has no point: all are too far from the origin for LAS; give an origin at the site "
+        store.path().string() +
+        ": the map has no point: all are too far from the origin for LAS; give an origin at the site "
         "(--origin)");
   if (const Status finished = files->finish(); !finished) return tl::unexpected(finished.error());
   const store::MapOutline& outline = merge.outline();
@@ -123,10 +125,12 @@ Result<WrittenLas> write_las(store::Store& store, const std::map<NodeId, Pose>& 
                              const store::MergeConfig& merge, const MapCrs& crs, const LasMapConfig& config) {
   auto tiled = tiled_map(store, T_map_node, merge);
   if (!tiled) return tl::unexpected(tiled.error());
-  if (const Status some = require_points(tiled->outline()); !some) return tl::unexpected(some.error());
+  if (const Status some = require_points(tiled->outline()); !some)
+    return failure(store.path().string() + ": " + some.error().message);
   const auto description = description_of(store, T_map_node, merge, tiled->outline(), crs, config.software);
-  if (config.tile) return stream(*tiled, crs, cloud::LasTiles::create(config.out, *config.tile, description));
-  return stream(*tiled, crs, cloud::LasWriter::create(config.out, description));
+  if (config.tile)
+    return stream(store, *tiled, crs, cloud::LasTiles::create(config.out, *config.tile, description));
+  return stream(store, *tiled, crs, cloud::LasWriter::create(config.out, description));
 }
 
 }  // namespace fleetmap::output

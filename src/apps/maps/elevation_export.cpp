@@ -17,7 +17,7 @@ Status export_elevation(StoredMap& map, const MapOptions& options, std::ostream&
   if (options.cell_m) config.cell_m = *options.cell_m;
   const auto written = output::write_elevation(map.store, parts.main.T_map_node, map.recipe.merge, *crs,
                                                config, options.out, std::string("fleetmap ") + kVersion);
-  if (!written) return failure(options.store + ": " + written.error().message);
+  if (!written) return tl::unexpected(written.error());
   out << options.out << ": ground.tif, surface.tif, hillshade.tif of " << written->width << " x "
       << written->height << " cells of " << config.cell_m << " m; points in " << written->observed
       << ", ground seen in " << written->ground << " of them\n"

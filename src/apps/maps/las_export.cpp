@@ -58,7 +58,7 @@ Status export_las(StoredMap& map, const std::string& store, const std::string& p
   if (!crs) return tl::unexpected(crs.error());
   const output::LasMapConfig config{path, options.tile_m, std::string("fleetmap ") + kVersion};
   const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);
-  if (!written) return failure(store + ": " + written.error().message);
+  if (!written) return tl::unexpected(written.error());
   print_las(out, *written, path, *crs, options);
   name_parts_apart(parts, std::cerr);
   return {};

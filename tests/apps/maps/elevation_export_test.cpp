@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ElevationExport : public testing::CommandLineTest {
  protected:
@@ -62,6 +63,14 @@ TEST_F(ElevationExport, AMapThatIsNotGeoreferencedStaysInItsOwnFrame) {
   export_rasters(lost, {"--crs", "enu"});
   EXPECT_EQ(exit_code_, 0) << output_;
   EXPECT_THAT(output_, HasSubstr("nobody knows where to lay them: r2"));
+}
+
+TEST_F(ElevationExport, AFolderThatCannotBeMadeIsNamedAndNotTheStore) {
+  const std::string located = store(true);
+  folder_.write("rasters", "a file");
+  export_rasters(located);
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, AllOf(HasSubstr("rasters: "), Not(HasSubstr("located.db"))));
 }
 
 TEST_F(ElevationExport, UnsuitableOptionsAreRefused) {

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::LasFile;
+using ::testing::Not;
 using testing::read_las;
 
 class LasExport : public testing::CommandLineTest {
@@ -140,7 +141,11 @@ TEST_F(LasExport, UnwritableExportsAreRefusedWithTheReason) {
   fs::create_symlink("/dev/full", path("map.las.part"));
   export_map(located, "map.las");
   EXPECT_EQ(exit_code_, 1);
-  EXPECT_THAT(output_, AllOf(HasSubstr("map.las: cannot be written"), HasSubstr("No space left")));
+  EXPECT_THAT(output_, AllOf(HasSubstr("map.las: cannot be written"), HasSubstr("No space left"),
+                             Not(HasSubstr("located.db"))));
+  export_map(located, "no/folder/map.las");
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, AllOf(HasSubstr("folder/map.las: cannot be written"), Not(HasSubstr("located.db"))));
   for (const char* file : {"map.las", "map.ply"}) EXPECT_FALSE(fs::exists(path(file))) << file;
 }
 
