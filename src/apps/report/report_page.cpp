@@ -29,8 +29,8 @@ std::string shown_count(const json& object, const char* key) {
   return object.contains(key) ? object[key].dump() : "";
 }
 
-/// From the first to the last pose of all tracks, s.
-double driven_seconds(const ReportFacts& facts) {
+/// From the first to the last pose of all tracks, s; robots may have stood or been off meanwhile.
+double span_seconds(const ReportFacts& facts) {
   Stamp first = Stamp::max(), last = Stamp::min();
   for (const RobotTrack& track : facts.tracks) {
     first = std::min(first, track.poses.front().stamp);
@@ -54,7 +54,7 @@ void show_summary(const ReportFacts& facts, eval::HtmlPage& page) {
   double metres = 0.0;
   for (const RobotTrack& track : facts.tracks) metres += driven_distance(track.poses);
   std::string text = std::to_string(agents_of(facts).size()) + " robots drove " + short_number(metres, 4) +
-                     " m in " + short_number(driven_seconds(facts), 4) + " s";
+                     " m in " + short_number(span_seconds(facts), 4) + " s (with pauses)";
   if (facts.mapped_area > 0.0)
     text += " and mapped " + short_number(facts.mapped_area, 4) + " m² of ground (cells of 1 m)";
   page.paragraph(text + ".");
@@ -204,7 +204,7 @@ void show_radio(const ReportFacts& facts, eval::HtmlPage& page) {
   for (const auto& [robot, agent] : agents_of(facts).items())
     bytes += agent.value("exchange", json::object()).value("long_range_wire_bytes", 0.0);
   const double seconds =
-      facts.report.value("virtual_time_s", facts.report.value("uptime_s", driven_seconds(facts)));
+      facts.report.value("virtual_time_s", facts.report.value("uptime_s", span_seconds(facts)));
   if (facts.long_range_rate > 0.0 && seconds > 0.0) {
     page.paragraph(
         "Long range: " + short_number(bytes / kKilobyte, 4) + " kB in " + short_number(seconds, 4) +

@@ -52,7 +52,8 @@ TEST(ReportPage, WarningsComeBeforeAllElse) {
 TEST(ReportPage, DistanceDurationAndAreaAreThoseOfTheRun) {
   ReportFacts facts = two_robots();
   facts.mapped_area = 812.0;
-  EXPECT_THAT(report_page(facts).str(), HasSubstr("2 robots drove 40 m in 10 s and mapped 812 m² of ground"));
+  EXPECT_THAT(report_page(facts).str(),
+              HasSubstr("2 robots drove 40 m in 10 s (with pauses) and mapped 812 m² of ground"));
   EXPECT_THAT(report_page(facts).str(), HasSubstr("First pose: 2027-01-15T08:00:00.000Z"));
 }
 
