@@ -23,7 +23,7 @@ constexpr Counter kCounters[] = {
     {"time_backwards", &Counters::time_backwards},
     {"clocks_set_back", &Counters::clocks_set_back},
     {"foreign_clock_scans", &Counters::foreign_clock_scans},
-    {"microsecond_scans", &Counters::microsecond_scans},
+    {"foreign_time_unit_scans", &Counters::foreign_time_unit_scans},
     {"unstamped_messages", &Counters::unstamped_messages},
     {"packets_of_wrong_size", &Counters::packets_of_wrong_size},
     {"packets_of_wrong_blocks", &Counters::packets_of_wrong_blocks},
@@ -102,7 +102,7 @@ bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const st
   counters_.origin_points += decoded.origin_points;
   counters_.noise_points += decoded.noise_points;
   if (const std::string finding = ros_codec::finding_of(decoded.time_unit); !finding.empty())
-    skip(&Counters::microsecond_scans, where + ": " + finding);
+    skip(&Counters::foreign_time_unit_scans, where + ": " + finding);
   if (decoded.foreign_clock) {
     skip(&Counters::foreign_clock_scans, where +
                                              ": point times are far from the header's stamp; "

@@ -83,13 +83,13 @@ TEST(CheckedReader, AScanWithoutReturnsIsLeftOut) {
   scan.scan.points.resize(1);
   scan.origin_points = 7;
   EXPECT_TRUE(checks.admit_points(scan, "a scan"));
-  EXPECT_EQ(checks.counters().microsecond_scans + checks.counters().foreign_clock_scans, 0u);
-  scan.time_unit = ros_codec::TimeUnit::kMicroseconds;
+  EXPECT_EQ(checks.counters().foreign_time_unit_scans + checks.counters().foreign_clock_scans, 0u);
+  scan.time_unit = ros_codec::TimeUnit::kMilliseconds;
   scan.foreign_clock = true;
   EXPECT_TRUE(checks.admit_points(scan, "a scan"));
   EXPECT_EQ(checks.counters().non_finite_points, 10u);
   EXPECT_EQ(checks.counters().origin_points, 14u);
-  EXPECT_EQ(checks.counters().microsecond_scans, 1u);
+  EXPECT_EQ(checks.counters().foreign_time_unit_scans, 1u);
   EXPECT_EQ(checks.counters().foreign_clock_scans, 1u);
 }
 

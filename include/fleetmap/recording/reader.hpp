@@ -36,7 +36,7 @@ struct Counters {
   std::uint64_t empty_scans = 0;                ///< without a single return; skipped
   std::uint64_t time_backwards = 0;             ///< not later than the one before of its kind; skipped
   std::uint64_t clocks_set_back = 0;            ///< times that the stamps of a kind went on far earlier
-  std::uint64_t microsecond_scans = 0;          ///< point times in microseconds instead of nanoseconds
+  std::uint64_t foreign_time_unit_scans = 0;    ///< point times are in no unit, or in another than defined
   std::uint64_t foreign_clock_scans = 0;        ///< point times in a clock unrelated to the scan's stamp
   std::uint64_t unstamped_messages = 0;         ///< header stamp 0: the time of recording was taken
   std::uint64_t packets_of_wrong_size = 0;      ///< of a LiDAR, as the next two; skipped
