@@ -69,7 +69,8 @@ class LinkCheck {
       if (expected != robot_.agent.id && !names_.contains(expected)) missing_.push_back(expected);
     }
     name_twins();
-    for (const std::string& notice : survey_.notices) problems_.push_back(notice);
+    for (const auto* notices : {&survey_.refused, &survey_.different_settings})
+      problems_.insert(problems_.end(), notices->begin(), notices->end());
   }
 
   const std::vector<AgentId>& missing() const { return missing_; }

@@ -176,7 +176,8 @@ Status write_report(const agent::Agent& agent, const Result<output::Results>& re
   for (const std::string& silent : silent_sensors(agent)) report["sensors"]["findings"].push_back(silent);
   report["uptime_s"] = to_seconds(start.uptime);
   report["radio_access"] = {{"who_may_join", who_may_join(start.access.keys)},
-                            {"refused", start.access.refused}};
+                            {"refused", start.access.refused},
+                            {"different_settings", start.access.different_settings}};
   report["topics"] = topics_json(agent.bus_stats());
   report["stalls"] = stalls_json(start.stalls);
   report["settings"] = settings_json(settings);

@@ -26,8 +26,9 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
                     const RunSettings& settings);
 /// Access to the radios.
 struct RadioAccess {
-  bool keys = false;                 ///< else anyone
-  std::vector<std::string> refused;  ///< sentences on problems with other robots
+  bool keys = false;                            ///< else anyone
+  std::vector<std::string> refused;             ///< sentences on who is not exchanged with and why
+  std::vector<std::string> different_settings;  ///< sentences on settings of others that must be equal
 };
 /// One start of an agent, from its beginning to its end.
 struct AgentStart {

@@ -126,7 +126,8 @@ void warn_of_fleet(const json& report, WarningList& list) {
     list.add(
         "the robot has no keys: anyone on the radios may join, read all and send anything; make keys with "
         "`fleetmap keys`");
-  for (const json& refused : access.value("refused", json::array())) list.add(refused.get<std::string>());
+  for (const char* key : {"refused", "different_settings"})
+    for (const json& sentence : access.value(key, json::array())) list.add(sentence.get<std::string>());
 }
 
 }  // namespace

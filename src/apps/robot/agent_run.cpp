@@ -64,10 +64,14 @@ Result<config::RobotConfig> member_of_fleet(const AgentOptions& options,
 }
 
 RadioAccess radio_access(const bus::DdsBusConfig& dds, const bus::DdsBus& bus) {
-  RadioAccess access{dds.keys != nullptr, {}};
+  RadioAccess access{dds.keys != nullptr, {}, {}};
   for (const bus::Link link : {bus::Link::kLongRange, bus::Link::kShortRange}) {
-    for (const std::string& notice : bus.survey(link).notices)
-      access.refused.push_back(std::string(to_string(link)) + ": " + notice);
+    const bus::RadioSurvey survey = bus.survey(link);
+    const auto add = [&](const std::vector<std::string>& sentences, std::vector<std::string>& to) {
+      for (const std::string& one : sentences) to.push_back(std::string(to_string(link)) + ": " + one);
+    };
+    add(survey.refused, access.refused);
+    add(survey.different_settings, access.different_settings);
   }
   return access;
 }

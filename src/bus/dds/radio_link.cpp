@@ -193,7 +193,8 @@ RadioSurvey RadioLink::survey() const {
   for (const auto& remote : remotes_) {
     if (elsewhere(*remote) && !remote->heard) survey.silent.push_back(to_text(remote->locator));
   }
-  survey.notices = notices_.sentences();
+  survey.refused = notices_.refusals();
+  survey.different_settings = notices_.differences();
   return survey;
 }
 

@@ -25,10 +25,10 @@ void RadioNotices::note(RadioSurvey::Robot robot) {
   }
 }
 
-bool RadioNotices::add(const std::string& sentence) {
-  const bool known = std::ranges::find(sentences_, sentence) != sentences_.end();
-  if (known || sentences_.size() >= kMaxSentences) return false;
-  sentences_.push_back(sentence);
+bool RadioNotices::add(const std::string& sentence, std::vector<std::string>& to) {
+  const bool known = std::ranges::find(to, sentence) != to.end();
+  if (known || to.size() >= kMaxSentences) return false;
+  to.push_back(sentence);
   return true;
 }
 
@@ -40,15 +40,15 @@ void RadioNotices::compare(const Hello& hello) {
         hello.sender.str() + (multicast_
                                   ? " has no " + key + ", this robot has: what goes to it is not counted"
                                   : " has " + key + ", this robot has not: give all the same");
-    if (add(one_sided)) spdlog::warn("{}: {}", to_string(link_), one_sided);
+    if (add(one_sided, differences_)) spdlog::warn("{}: {}", to_string(link_), one_sided);
   }
-  for (const std::string& difference : differences(hello.sender.str(), *hello.settings, *settings_)) {
-    if (add(difference)) spdlog::warn("{}: {}", to_string(link_), difference);
+  for (const std::string& difference : bus::differences(hello.sender.str(), *hello.settings, *settings_)) {
+    if (add(difference, differences_)) spdlog::warn("{}: {}", to_string(link_), difference);
   }
 }
 
 void RadioNotices::refuse(const std::string& address, const std::string& why) {
-  if (add(address + ": " + why)) spdlog::warn("{}: {}", to_string(link_), sentences_.back());
+  if (add(address + ": " + why, refusals_)) spdlog::warn("{}: {}", to_string(link_), refusals_.back());
 }
 
 void RadioNotices::add_namesake(const std::string& address, const AgentId& name) {
@@ -56,7 +56,7 @@ void RadioNotices::add_namesake(const std::string& address, const AgentId& name)
       "another robot at {} is named {}, too: each needs a name of its own, or their nodes are taken for "
       "conflicts",
       address, name.str());
-  if (add(notice)) spdlog::error("{}: {}", to_string(link_), notice);
+  if (add(notice, refusals_)) spdlog::error("{}: {}", to_string(link_), notice);
 }
 
 }  // namespace fleetmap::bus

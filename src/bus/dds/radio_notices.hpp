@@ -27,18 +27,20 @@ class RadioNotices {
   void add_namesake(const std::string& address, const AgentId& name);
 
   const std::vector<RadioSurvey::Robot>& robots() const { return robots_; }
-  /// All sentences so far, also on robots that are gone.
-  const std::vector<std::string>& sentences() const { return sentences_; }
+  /// All sentences so far, also on robots that are gone: of refuse() and add_namesake() ...
+  const std::vector<std::string>& refusals() const { return refusals_; }
+  /// ... and of compare().
+  const std::vector<std::string>& differences() const { return differences_; }
 
  private:
   /// False if it was known, or the list is full.
-  bool add(const std::string& sentence);
+  static bool add(const std::string& sentence, std::vector<std::string>& to);
 
   Link link_;
   bool multicast_;
   std::optional<FleetSettings> settings_;
   std::vector<RadioSurvey::Robot> robots_;
-  std::vector<std::string> sentences_;
+  std::vector<std::string> refusals_, differences_;
 };
 
 }  // namespace fleetmap::bus

@@ -80,7 +80,9 @@ TEST(ReportWarnings, EachCounterThatShouldBeZeroIsNamedWithItsRobot) {
          "r3 contradicts the fleet and is left"},
         {"/exchange_ended", json(false), "the exchange did not come to its end"},
         {"/completion/why_not", json("time is up"), "the mission was not completed: time is up"},
-        {"/radio_access/who_may_join", json("anyone"), "no keys"}}) {
+        {"/radio_access/who_may_join", json("anyone"), "no keys"},
+        {"/radio_access/refused", json{"wifi: 10.0.0.9: revoked"}, "10.0.0.9: revoked"},
+        {"/radio_access/different_settings", json{"r2's fleet list is another"}, "r2's fleet list"}}) {
     json report = sound_fleet();
     report[json::json_pointer(pointer)] = value;
     EXPECT_THAT(report_warnings(report, {}), ElementsAre(HasSubstr(words))) << pointer;

@@ -120,7 +120,7 @@ class SealedRadio : public ::testing::Test {
     return matches.readers == others && matches.writers == others;
   }
   static std::vector<std::string> notices(const Robot& robot) {
-    return robot.bus->survey(Link::kLongRange).notices;
+    return robot.bus->survey(Link::kLongRange).refused;
   }
   /// A message arrives. Repeated, since radios may lose it.
   bool hears(const Robot& to, const Robot& from) {

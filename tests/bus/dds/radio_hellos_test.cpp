@@ -96,7 +96,7 @@ TEST_F(RadioHellosTest, ARobotOfThisRobotsNameIsReportedOnce) {
   send(namesake, 4);
   expect_processed("r3", 2, 3);
   EXPECT_EQ(log_.count("is named r1, too"), 1) << log_.text();
-  EXPECT_THAT(bus_->survey(Link::kLongRange).notices,
+  EXPECT_THAT(bus_->survey(Link::kLongRange).refused,
               ::testing::Contains(::testing::HasSubstr("is named r1, too")));
 }
 

@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 RadioSurvey::Robot robot_at(const std::string& name, const std::string& place) {
   RadioSurvey::Robot robot;
@@ -37,7 +38,7 @@ TEST(RadioNotices, TheListsAreBounded) {
     notices.refuse(std::to_string(k), "another version");
   }
   EXPECT_EQ(notices.robots().size(), 256u);
-  EXPECT_EQ(notices.sentences().size(), 128u);
+  EXPECT_EQ(notices.refusals().size(), 128u);
 }
 
 TEST(RadioNotices, ARefusalIsReportedOnce) {
@@ -45,13 +46,13 @@ TEST(RadioNotices, ARefusalIsReportedOnce) {
   notices.refuse("10.0.0.1:7660", "another version");
   notices.refuse("10.0.0.1:7660", "another version");
   notices.refuse("10.0.0.1:7660", "revoked");
-  EXPECT_THAT(notices.sentences(), ElementsAre("10.0.0.1:7660: another version", "10.0.0.1:7660: revoked"));
+  EXPECT_THAT(notices.refusals(), ElementsAre("10.0.0.1:7660: another version", "10.0.0.1:7660: revoked"));
 }
 
 TEST(RadioNotices, RobotOfTheSameNameIsKept) {
   RadioNotices notices(Link::kLongRange, false, FleetSettings{});
   notices.add_namesake("10.0.0.1:7660", AgentId::parse("r1").value());
-  EXPECT_THAT(notices.sentences(), ElementsAre(HasSubstr("another robot at 10.0.0.1:7660 is named r1, too")));
+  EXPECT_THAT(notices.refusals(), ElementsAre(HasSubstr("another robot at 10.0.0.1:7660 is named r1, too")));
 }
 
 TEST(RadioNotices, OtherSettingsOfARobotAreKeptOnce) {
@@ -62,8 +63,9 @@ TEST(RadioNotices, OtherSettingsOfARobotAreKeptOnce) {
   hello.settings->fleet = 7;
   hello.multicast = true;
   for (int k = 0; k < 2; ++k) notices.compare(hello);
-  EXPECT_THAT(notices.sentences(), ElementsAre(HasSubstr("r2 has dds.long_range.multicast"),
-                                               HasSubstr("r2's fleet list is another")));
+  EXPECT_THAT(notices.refusals(), IsEmpty());
+  EXPECT_THAT(notices.differences(), ElementsAre(HasSubstr("r2 has dds.long_range.multicast"),
+                                                 HasSubstr("r2's fleet list is another")));
 }
 
 }  // namespace

@@ -120,8 +120,8 @@ TEST_F(RadioSurveyTest, RadiosThatAreMixedUpAreNamed) {
   mixed.short_range.enabled = true;
   const DdsBus& first = start(robot("r1"));
   start(mixed);
-  ASSERT_TRUE(run_until([&] { return !first.survey(Link::kLongRange).notices.empty(); }));
-  EXPECT_THAT(first.survey(Link::kLongRange).notices, ElementsAre(HasSubstr("r2 has its short_range here")));
+  ASSERT_TRUE(run_until([&] { return !first.survey(Link::kLongRange).refused.empty(); }));
+  EXPECT_THAT(first.survey(Link::kLongRange).refused, ElementsAre(HasSubstr("r2 has its short_range here")));
   EXPECT_EQ(heard(first), 0u);
   EXPECT_EQ(log_.count("r2 has its short_range here"), 1);
 }
@@ -132,7 +132,7 @@ TEST_F(RadioSurveyTest, ARobotOfAnotherVersionIsNamedOncePerAddress) {
   Hello hello = some_hello();
   hello.address = {127, 0, 0, 1};
   std::uint8_t sent = 0;
-  const auto said = [&] { return first.survey(Link::kLongRange).notices.size(); };
+  const auto said = [&] { return first.survey(Link::kLongRange).refused.size(); };
   for (std::size_t robots = 1; robots <= 2; ++robots) {
     hello.port = static_cast<std::uint16_t>(own + 2 * robots);
     Bytes old = encode(hello);

@@ -47,7 +47,7 @@ TEST_P(RadioTransport, EachOfManyMessagesArrivesAsItWasSent) {
     ASSERT_EQ(came.size(), sent.size());
   }
   EXPECT_TRUE(came == sent);
-  EXPECT_TRUE(to.survey(Link::kLongRange).notices.empty());
+  EXPECT_TRUE(to.survey(Link::kLongRange).refused.empty());
 }
 
 TEST_P(RadioTransport, TakesTheBytesOnTheWireThatAreCounted) {
