@@ -11,7 +11,7 @@
 
 #include "fleetmap/core/text_list.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
-#include "reasons.hpp"
+#include "fleetmap/monitor/reasons.hpp"
 
 namespace fleetmap::monitor {
 namespace {

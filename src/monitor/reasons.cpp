@@ -1,4 +1,4 @@
-#include "reasons.hpp"
+#include "fleetmap/monitor/reasons.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -60,20 +60,28 @@ std::string worded(const std::vector<std::string>& words, const std::vector<Numb
 
 }  // namespace
 
-std::vector<Reason> reasons_of(const std::vector<const Attempt*>& attempts) {
+std::vector<Reason> reasons_of(const std::map<std::string, std::size_t>& counts) {
   std::map<std::vector<std::string>, ReasonKind> kinds;
-  for (const Attempt* attempt : attempts) {
-    if (attempt->verdict == "accepted") continue;
-    const NumberedText parts = numbered_text(attempt->reason.empty() ? attempt->verdict : attempt->reason);
+  for (const auto& [text, count] : counts) {
+    const NumberedText parts = numbered_text(text);
     ReasonKind& kind = kinds[parts.words];
     kind.ranges.resize(parts.numbers.size());
-    ++kind.count;
+    kind.count += count;
     for (std::size_t k = 0; k < parts.numbers.size(); ++k) kind.ranges[k].add(parts.numbers[k]);
   }
   std::vector<Reason> sorted;
   for (const auto& [words, kind] : kinds) sorted.push_back({worded(words, kind.ranges), kind.count});
   std::ranges::stable_sort(sorted, std::greater{}, &Reason::count);
   return sorted;
+}
+
+std::vector<Reason> reasons_of(const std::vector<const Attempt*>& attempts) {
+  std::map<std::string, std::size_t> counts;
+  for (const Attempt* attempt : attempts) {
+    if (attempt->verdict != "accepted")
+      ++counts[attempt->reason.empty() ? attempt->verdict : attempt->reason];
+  }
+  return reasons_of(counts);
 }
 
 }  // namespace fleetmap::monitor

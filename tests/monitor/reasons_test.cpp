@@ -1,4 +1,4 @@
-#include "reasons.hpp"
+#include "fleetmap/monitor/reasons.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,6 +40,14 @@ TEST(Reasons, an_attempt_without_a_reason_has_its_verdict) {
   ASSERT_EQ(reasons.size(), 1u);
   EXPECT_EQ(reasons[0].text, "rejected");
   EXPECT_EQ(reasons[0].count, 2u);
+}
+
+TEST(Reasons, counted_texts_add_up) {
+  const auto reasons = reasons_of({{"only 12 inliers", 3}, {"only 15 inliers", 2}, {"no prior", 4}});
+  ASSERT_EQ(reasons.size(), 2u);
+  EXPECT_EQ(reasons[0].text, "only 12 to 15 inliers");
+  EXPECT_EQ(reasons[0].count, 5u);
+  EXPECT_EQ(reasons[1].count, 4u);
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ void add_map_merge(CLI::App& map, int& exit_code) {
       ->add_option("--keys", options->keys,
                    "folder of a member's keys; items count only if their makers signed them")
       ->check(some_path());
+  command->add_flag("--verbose", options->verbose,
+                    "print each reason of a rejection with its numbers, and not only their range");
   command->callback([options, &exit_code] { exit_code = report(merge_files(*options, std::cout)); });
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <ostream>
 
+#include "fleetmap/monitor/reasons.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -24,7 +26,7 @@ void print_union(std::ostream& out, const std::string& file, const exchange::Sto
            "with --first-session 1000\n";
 }
 
-void print_pair(std::ostream& out, const DayPair& pair, const std::vector<std::string>& files) {
+void print_pair(std::ostream& out, const DayPair& pair, const std::vector<std::string>& files, bool verbose) {
   const std::string &earlier = files[pair.earlier], &later = files[pair.later];
   std::size_t rejected = 0;
   for (const auto& [reason, count] : pair.alignments.rejected) rejected += count;
@@ -36,16 +38,23 @@ void print_pair(std::ostream& out, const DayPair& pair, const std::vector<std::s
   }
   out << " (" << pair.alignments.candidates << " candidates: " << pair.alignments.accepted << " accepted, "
       << pair.alignments.ambiguous << " ambiguous, " << rejected << " rejected)\n";
-  for (const auto& [reason, count] : pair.alignments.rejected)
+  const auto print = [&out](const std::string& reason, std::size_t count) {
     out << "  rejected " << count << " times: " << reason << '\n';
+  };
+  if (verbose) {
+    for (const auto& [reason, count] : pair.alignments.rejected) print(reason, count);
+  } else {
+    for (const monitor::Reason& one : monitor::reasons_of(pair.alignments.rejected))
+      print(one.text, one.count);
+  }
 }
 
 }  // namespace
 
 void print_summary(std::ostream& out, const MergedStore& merged, const std::vector<std::string>& files,
-                   const std::string& written) {
+                   const std::string& written, bool verbose) {
   for (std::size_t k = 0; k < files.size(); ++k) print_union(out, files[k], merged.unions[k]);
-  for (const DayPair& pair : merged.pairs) print_pair(out, pair, files);
+  for (const DayPair& pair : merged.pairs) print_pair(out, pair, files, verbose);
   out << written << ": " << merged.placement.T_enu_node.size() << " nodes, " << merged.placement.used.size()
       << " alignments used, ";
   if (const std::size_t parts = merged.placement.components.size(); parts > 1) {

@@ -10,6 +10,7 @@
 
 #include "fleetmap/agent/item_keys.hpp"
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/monitor/reasons.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/sea_level_heights.hpp"
 #include "fleetmap/trust/credentials.hpp"
@@ -115,7 +116,7 @@ std::string why_not_joined(const DayPair& pair, const graph::Placement& placemen
   }
   if (tried.candidates == 0) return "no place of one was recognised in the other";
   if (tried.found.empty()) {
-    for (const auto& [reason, count] : tried.rejected) add(times(count, reason));
+    for (const monitor::Reason& one : monitor::reasons_of(tried.rejected)) add(times(one.count, one.text));
     return "none of " + std::to_string(tried.candidates) + " places where they may overlap fits (" + why +
            ")";
   }

@@ -43,7 +43,7 @@ CommandResult<ExitCode> merge_files(const MergeOptions& options, std::ostream& o
   const auto merged = merge_stores(stores, file, keys);
   if (!merged) return exit_with(kFailed, merged.error());
   keep_previews(file, stores);
-  print_summary(out, *merged, options.stores, file.string());
+  print_summary(out, *merged, options.stores, file.string(), options.verbose);
   return kDone;
 }
 

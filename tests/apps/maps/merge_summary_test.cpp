@@ -28,9 +28,9 @@ MergedStore two_days() {
   return merged;
 }
 
-std::string summary_of(const MergedStore& merged) {
+std::string summary_of(const MergedStore& merged, bool verbose = false) {
   std::ostringstream out;
-  print_summary(out, merged, {"a.db", "b.db"}, "out/store.db");
+  print_summary(out, merged, {"a.db", "b.db"}, "out/store.db", verbose);
   return out.str();
 }
 
@@ -51,6 +51,16 @@ TEST(MergeSummary, ThatTwoDaysAreNotJoinedHasItsReason) {
               HasSubstr("a.db and b.db: NOT joined: they do not overlap (9 candidates: "));
   merged.pairs[0].joined = merged.pairs[0].frames_shared = true;
   EXPECT_THAT(summary_of(merged), HasSubstr("joined by 3 alignments and the sessions that both have ("));
+}
+
+TEST(MergeSummary, RejectionsAreSummedUnlessAllAreAskedFor) {
+  MergedStore merged = two_days();
+  merged.pairs[0].alignments.rejected = {{"only 12 inliers", 1}, {"only 15 inliers", 2}, {"no prior", 1}};
+  EXPECT_THAT(summary_of(merged), AllOf(HasSubstr("4 rejected)\n  rejected 3 times: only 12 to 15 inliers\n"
+                                                  "  rejected 1 times: no prior\n"),
+                                        Not(HasSubstr("only 12 inliers"))));
+  EXPECT_THAT(summary_of(merged, true), AllOf(HasSubstr("  rejected 1 times: only 12 inliers\n"),
+                                              HasSubstr("  rejected 2 times: only 15 inliers\n")));
 }
 
 TEST(MergeSummary, TellsWhatIsLeftOutAndListsContestedNamesUpToTwenty) {

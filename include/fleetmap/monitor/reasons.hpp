@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,5 +17,7 @@ struct Reason {
 
 /// Why attempts were not accepted, the commonest first.
 std::vector<Reason> reasons_of(const std::vector<const Attempt*>& attempts);
+/// The same of texts that were counted.
+std::vector<Reason> reasons_of(const std::map<std::string, std::size_t>& counts);
 
 }  // namespace fleetmap::monitor
