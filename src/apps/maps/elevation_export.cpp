@@ -22,6 +22,7 @@ Status export_elevation(StoredMap& map, const MapOptions& options, std::ostream&
       << written->height << " cells of " << config.cell_m << " m; points in " << written->observed
       << ", ground seen in " << written->ground << " of them\n"
       << crs->text() << '\n';
+  name_holes(map);
   name_unreadable(written->outline);
   name_parts_apart(parts, std::cerr);
   return {};

@@ -60,6 +60,7 @@ Status export_las(StoredMap& map, const std::string& store, const std::string& p
   const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);
   if (!written) return tl::unexpected(written.error());
   print_las(out, *written, path, *crs, options);
+  name_holes(map);
   name_parts_apart(parts, std::cerr);
   return {};
 }

@@ -30,6 +30,7 @@ Result<std::string> export_points(StoredMap& map, const std::string& store,
   const auto written = output::write_planned(
       *merge, files, output::map_comments(map.store, main, map.recipe.origin, map.recipe.merge));
   if (!written) return tl::unexpected(written.error());
+  name_holes(map);
   name_unreadable(written->outline);
   name_parts_apart(parts, std::cerr);
   return out.string() + ": " + std::to_string(written->points) + " points from " +

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <iomanip>
 #include <ostream>
+#include <string>
 
 #include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/graph/contradictions.hpp"
 #include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/map_holes.hpp"
 
 namespace fleetmap::apps {
 
@@ -18,6 +20,8 @@ void print_info(std::ostream& out, const StoredMap& map) {
       << map.items.alignments.size() << " (" << map.placement.used.size() << " used)\n"
       << std::setprecision(10) << "origin " << map.recipe.origin.latitude / kDegree << ", "
       << map.recipe.origin.longitude / kDegree << " deg, " << map.recipe.origin.altitude << " m\n";
+  if (const std::string holes = output::text_of_holes(map.store, map.items.nodes); !holes.empty())
+    out << holes << '\n';
   for (const auto& component : map.placement.components) {
     out << "aligned together:";
     for (const graph::FrameId& frame : component) out << ' ' << graph::to_string(frame);

@@ -118,6 +118,7 @@ CommandResult<ExitCode> draw_map(const MapOptions& options, std::ostream& out) {
     return exit_with(kUsage, {options.out + ": there are several pictures; name a folder for them"});
   auto map = open(options);
   if (!map) return exit_with(kFailed, map.error());
+  name_holes(*map);
   name_parts_apart(output::map_parts(map->items.nodes, map->placement), std::cerr);
   const auto files = export_pictures(*map, options.store, options.out);
   if (!files) return exit_with(kFailed, files.error());

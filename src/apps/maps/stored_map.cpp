@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/output/map_holes.hpp"
 #include "fleetmap/store/thinned_map.hpp"
 
 namespace fleetmap::apps {
@@ -53,6 +54,11 @@ Result<StoredMap> open_map(const std::filesystem::path& file, const MapSelection
 
 std::map<NodeId, Pose> shown_poses(const StoredMap& map) {
   return output::map_parts(map.items.nodes, map.placement).main.T_map_node;
+}
+
+void name_holes(const StoredMap& map) {
+  if (const std::string holes = output::text_of_holes(map.store, map.items.nodes); !holes.empty())
+    std::cerr << holes << '\n';
 }
 
 void name_unreadable(const store::MapOutline& outline) {

@@ -45,6 +45,9 @@ std::map<NodeId, Pose> shown_poses(const StoredMap& map);
 /// their points and once to be counted around these.
 Result<std::vector<run_evaluation::MapPicture>> pictures_of(StoredMap& map);
 
+/// Prints which robots' submaps the store lacks, so that the map has holes.
+void name_holes(const StoredMap& map);
+
 /// Prints the submaps that are left out.
 void name_unreadable(const store::MapOutline& outline);
 

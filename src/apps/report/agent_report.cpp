@@ -5,6 +5,8 @@
 
 #include "candidate_report.hpp"
 #include "fleetmap/geometry/degree.hpp"
+#include "fleetmap/output/map_holes.hpp"
+#include "fleetmap/output/placed_store.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -139,6 +141,8 @@ void add_holdings(json& report, const store::Store& store, const output::Results
   report["map_points"] = results->map.points;
   report["map_submaps"] = results->map.submaps;
   report["missing_submaps"] = results->missing_submaps;
+  for (const auto& [robot, holes] : output::map_holes(store, output::nodes_of(store)))
+    report["missing_submaps_of"][robot.str()] = holes.without_submap;
   report["map_hash"] = results->map.hash;
   // It is zero where no node has a position (output::site_origin()).
   if (results->origin != GeoPoint{}) report["origin"] = origin_json(results->origin);

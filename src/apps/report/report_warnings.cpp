@@ -75,12 +75,19 @@ void warn_of_sensors(const std::string& robot, const json& agent, WarningList& l
                   " scans were dropped since the computer was too slow; see its load in report.json");
 }
 
+/// " (of r2: 3, r3: 1)", the makers of the submaps that a robot lacks.
+std::string missing_of(const json& agent) {
+  std::string makers;
+  for (const auto& [maker, count] : part_of(agent, "missing_submaps_of").items())
+    append_to_list(makers, maker + ": " + count.dump());
+  return makers.empty() ? "" : " (of " + makers + ")";
+}
+
 void warn_of_exchange(const std::string& robot, const json& agent, WarningList& list) {
   const std::uint64_t missing = count_in(agent, "missing_submaps");
-  list.add_if(missing,
-              robot + ": " + std::to_string(missing) +
-                  " submaps are missing in its map, since their robots were out of Wi-Fi's reach; run "
-                  "it again near one that has them");
+  list.add_if(missing, robot + ": " + std::to_string(missing) + " submaps are missing" + missing_of(agent) +
+                           ", so its map has holes there, since their robots were out of Wi-Fi's reach; run "
+                           "it again near one that has them");
   for (const auto& [topic, dropped] : part_of(agent, "bus_drops").items())
     list.add(
         fmt::format("{}: {} messages of {} were dropped by its own queues", robot, dropped.dump(), topic));

@@ -46,6 +46,27 @@ TEST_F(MapExports, PointsAreThoseThatTheSentenceNames) {
             path("map.ply").string() + ": " + std::to_string(cloud.size()) + " points from 6 submaps");
 }
 
+TEST_F(MapExports, NodesWithoutSubmapAreNamedByTheirRobot) {
+  StoredMap whole = map();
+  const auto file = path("lacks.db");
+  {
+    auto store = store::Store::open(file, AgentId::parse("r1").value()).value();
+    for (const graph::Node& node : whole.items.nodes) {
+      if (node.id.seq > 0 && node.id.agent.str() == "r2") {
+        ASSERT_TRUE(store.put_node(node));
+      } else {
+        ASSERT_TRUE(store.put_node_with_submap(node, whole.store.submap(node.id).value()));
+      }
+    }
+  }
+  StoredMap lacking = open_map(file, {testing::kSceneOrigin, 0.2, {}}).value();
+  ::testing::internal::CaptureStderr();
+  ASSERT_TRUE(export_points(lacking, "lacks.db", path("lacks.ply")));
+  EXPECT_THAT(
+      ::testing::internal::GetCapturedStderr(),
+      HasSubstr("2 of 6 nodes have no submap in this store (r2: 2 of 3), so the map has holes there"));
+}
+
 TEST_F(MapExports, AMapWithoutAPointIsRefusedWithItsCause) {
   const auto file = path("empty.db");
   {

@@ -87,6 +87,14 @@ TEST_F(MapInfo, MissingItemsChangeTheHash) {
   EXPECT_EQ(without_alignment.at("alignments"), 1);
 }
 
+TEST_F(MapInfo, NodesWithoutSubmapAreNamedByTheirRobot) {
+  const std::string file = write_store("r1", false, 2, true);
+  run({"map", "info", file});
+  EXPECT_EQ(exit_code_, 0) << output_;
+  EXPECT_NE(output_.find("1 of 6 nodes have no submap in this store (r2: 1 of 3)"), std::string::npos)
+      << output_;
+}
+
 TEST_F(MapInfo, CountsWhatIsHeld) {
   run({"map", "info", write_store("r1", false, 2, true)});
   EXPECT_EQ(exit_code_, 0) << output_;

@@ -105,6 +105,14 @@ TEST(ReportWarnings, RobotThatHoldsOnlyTheNodesOfOthersIsNamedWithWhatItsLidarGa
               ElementsAre(HasSubstr("r2 made no node in this run, only before: no LiDAR scan arrived")));
 }
 
+TEST(ReportWarnings, MissingSubmapsAreNamedWithTheirMakersAndThatTheMapHasHoles) {
+  json report = sound_fleet();
+  report["agents"]["r2"]["missing_submaps"] = 4;
+  report["agents"]["r2"]["missing_submaps_of"] = {{"r1", 3}, {"r3", 1}};
+  EXPECT_THAT(report_warnings(report, {}),
+              ElementsAre(HasSubstr("r2: 4 submaps are missing (of r1: 3, r3: 1), so its map has holes")));
+}
+
 TEST(ReportWarnings, EqualWarningsOfTwoRobotsAreMerged) {
   json report = sound_fleet();
   for (const char* robot : {"r1", "r2"})
