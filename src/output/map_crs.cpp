@@ -7,6 +7,7 @@
 
 #include "crs_wkt.hpp"
 #include "fleetmap/core/lower_case.hpp"
+#include "fleetmap/core/text_list.hpp"
 
 namespace fleetmap::output {
 namespace {
@@ -19,6 +20,15 @@ constexpr const char* kOffered =
     "EPSG:32760) or enu";
 
 std::string epsg_name(const UtmZone& zone) { return "EPSG:" + std::to_string(zone.epsg()); }
+
+/// A sentence of the robots whose heights may be of another kind than those of the store's own robot.
+std::string words_of_unknown(const std::set<AgentId>& robots) {
+  if (robots.empty()) return "";
+  std::string names;
+  for (const AgentId& robot : robots) append_to_list(names, robot.str());
+  return " Heights at the nodes of " + names +
+         " are as GPS gave them there: whether above the ellipsoid or sea level is not in the store.";
+}
 
 std::string degrees(double radians) {
   return std::to_string(std::lround(radians / std::numbers::pi * 180.0));
@@ -89,16 +99,19 @@ std::string MapCrs::wkt() const {
 std::string MapCrs::text() const {
   if (!zone_ && place_.georeferenced)
     return "Coordinates: metres east, north and up of " + origin_text(place_.origin, place_.above_sea_level) +
-           ".";
+           "." + words_of_unknown(place_.unknown);
   if (!zone_) {
     return "Coordinates: metres in the map's own frame, z up. Nobody knows its place and its heading on "
            "Earth, for none of its robots had GPS.";
   }
   const std::string coordinates = "Coordinates: metres in " + name() + " (WGS 84 / UTM zone " +
                                   std::to_string(zone_->number) + (zone_->north ? "N" : "S") + "). ";
-  if (place_.above_sea_level) return coordinates + "Heights: metres above mean sea level as GPS gave them.";
-  if (geoid_) return coordinates + "Heights: metres above the geoid " + geoid_->name() + " (sea level).";
-  return coordinates + "Heights: metres above the WGS 84 ellipsoid, not above sea level.";
+  const std::string unknown = words_of_unknown(place_.unknown);
+  if (place_.above_sea_level)
+    return coordinates + "Heights: metres above mean sea level as GPS gave them." + unknown;
+  if (geoid_)
+    return coordinates + "Heights: metres above the geoid " + geoid_->name() + " (sea level)." + unknown;
+  return coordinates + "Heights: metres above the WGS 84 ellipsoid, not above sea level." + unknown;
 }
 
 Eigen::Vector3i MapCrs::offset() const {

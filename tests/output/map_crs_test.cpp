@@ -138,6 +138,18 @@ TEST(MapCrs, APointThatIsNoneHasNoCoordinates) {
   EXPECT_TRUE(!far.allFinite() || std::abs(far.z()) > 1e9);
 }
 
+TEST(MapCrs, RobotsWhoseHeightsMayBeOfAnotherKindAreNamed) {
+  MapPlace place = kSpain;
+  place.unknown = {AgentId::parse("r2").value(), AgentId::parse("r3").value()};
+  for (const Kind kind : {Kind::site_zone, Kind::enu}) {
+    const auto crs = MapCrs::of({kind, {}}, place, std::nullopt);
+    ASSERT_TRUE(crs);
+    EXPECT_THAT(crs->text(),
+                AllOf(HasSubstr("above the WGS 84 ellipsoid"),
+                      HasSubstr(" Heights at the nodes of r2, r3 are as GPS gave them there: ")));
+  }
+}
+
 TEST(MapCrs, HeightsAboveSeaLevelAreNoEllipsoidalOnesAndTakeNoGeoid) {
   MapPlace place = kSpain;
   place.above_sea_level = true;

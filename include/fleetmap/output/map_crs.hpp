@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/geometry/geoid.hpp"
@@ -36,6 +38,7 @@ struct MapPlace {
   GeoPoint origin;               ///< of ENU
   bool georeferenced = false;    ///< otherwise `origin` says nothing
   bool above_sea_level = false;  ///< heights, as GPS gave them (has_sea_level_heights)
+  std::set<AgentId> unknown{};   ///< robots with heights of another kind, perhaps (unknown_heights)
 };
 
 /// Why a geoid is refused for a map whose heights GPS gave above mean sea level.

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <set>
+
+#include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/store/store.hpp"
 
@@ -10,5 +13,14 @@ namespace fleetmap::output {
 Status keep_sea_level_heights(store::Store& store);
 /// False as well for a store that an older program wrote.
 bool has_sea_level_heights(const store::Store& store);
+
+/// Stores of which robots, beside its own, the kind of heights is that of has_sea_level_heights(): of a
+/// merged store.
+Status keep_known_heights(store::Store& store, const std::set<AgentId>& robots);
+/// These robots and the store's own.
+std::set<AgentId> known_heights(const store::Store& store);
+/// Makers of nodes with G whose kind of height the store does not hold: messages between robots have no room
+/// for it.
+std::set<AgentId> unknown_heights(const store::Store& store);
 
 }  // namespace fleetmap::output

@@ -41,7 +41,7 @@ Result<output::MapCrs> crs_of(const LasOptions& options, const StoredMap& map, c
     geoid = std::move(*loaded);
   }
   const output::MapPlace place{map.recipe.origin, part.georeferenced,
-                               output::has_sea_level_heights(map.store)};
+                               output::has_sea_level_heights(map.store), output::unknown_heights(map.store)};
   auto crs = output::MapCrs::of(*request, place, std::move(geoid));
   if (!crs) return failure(store + ": " + crs.error().message);
   return crs;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -165,18 +166,38 @@ bool has_gps(const store::Store& store) {
   return std::ranges::any_of(store.nodes(), [](const auto& entry) { return entry.second.G.has_value(); });
 }
 
+/// What the heights of stores are above, for the store that they become.
+class MergedHeights {
+ public:
+  void add(const store::Store& store) {
+    const bool above_sea_level = output::has_sea_level_heights(store);
+    if (above_sea_level || has_gps(store)) kinds_.insert(above_sea_level);
+    known_.merge(output::known_heights(store));
+  }
+  /// Stores of different kinds leave it open for each robot.
+  Status keep(store::Store& into) const {
+    if (kinds_.contains(true)) {
+      if (const Status kept = output::keep_sea_level_heights(into); !kept) return kept;
+    }
+    return kinds_.size() == 1 ? output::keep_known_heights(into, known_) : Status{};
+  }
+
+ private:
+  std::set<bool> kinds_;
+  std::set<AgentId> known_;
+};
+
 /// Adds each store, and the recipe of the first with GPS, whose origin is near it, else of the first.
 Status add_all(const std::vector<fs::path>& files, const exchange::ItemAuthenticator* keys,
                store::Store& into, MergedStore& merged) {
   std::optional<output::MapRecipe> recipe;
   bool located = false;
+  MergedHeights heights;
   for (const fs::path& file : files) {
     if (const Status meant = check_store(file); !meant) return meant;
     auto store = store::Store::open_read_only(file);
     if (!store) return tl::unexpected(store.error());
-    if (output::has_sea_level_heights(*store)) {
-      if (const Status kept = output::keep_sea_level_heights(into); !kept) return kept;
-    }
+    heights.add(*store);
     auto added = exchange::add_items(into, *store, keys);
     if (!added) return tl::unexpected(added.error());
     merged.unions.push_back(std::move(*added));
@@ -188,6 +209,7 @@ Status add_all(const std::vector<fs::path>& files, const exchange::ItemAuthentic
   if (!recipe || into.nodes().empty())
     return failure("the stores hold no node that may be used, so there is nothing to merge");
   merged.recipe = *recipe;
+  if (const Status kept = heights.keep(into); !kept) return kept;
   return output::keep_recipe(into,
                              {recipe->origin, recipe->placement, recipe->merge, recipe->search_radius_m});
 }

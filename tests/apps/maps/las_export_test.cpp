@@ -65,7 +65,9 @@ TEST_F(LasExport, PointsAreThoseOfThePlyAtTheirPlaceOnEarth) {
     ASSERT_EQ(exit_code_, 0) << output_;
     const int zone = crs == "utm" ? 32 : 31;
     EXPECT_THAT(output_, AllOf(HasSubstr("EPSG:326" + std::to_string(zone)), HasSubstr("from 6 submaps"),
-                               HasSubstr("above the WGS 84 ellipsoid"), HasSubstr("Scale at the origin: ")));
+                               HasSubstr("above the WGS 84 ellipsoid"),
+                               HasSubstr("Heights at the nodes of r2 are as GPS gave them"),
+                               HasSubstr("Scale at the origin: ")));
     const LasFile las = read_las(path("map.las"));
     EXPECT_THAT(las.software, HasSubstr("fleetmap "));
     ASSERT_EQ(las.points.size(), ply->size());

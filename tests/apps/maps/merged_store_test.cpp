@@ -5,12 +5,14 @@
 
 #include "apps/driven_days.hpp"
 #include "fleetmap/geometry/degree.hpp"
+#include "fleetmap/output/sea_level_heights.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 class MergedStoreTest : public ::testing::Test {
  protected:
@@ -49,6 +51,19 @@ TEST_F(MergedStoreTest, TwoDaysFitEachOtherThoughGpsOfOneIsOff) {
   EXPECT_EQ(store->nodes().size(), 8u);
   EXPECT_EQ(store->submap_set().size(), 8u);
   EXPECT_EQ(output::map_recipe(*store)->origin, merged.recipe.origin);
+  EXPECT_THAT(output::unknown_heights(*store), IsEmpty());
+}
+
+TEST_F(MergedStoreTest, HeightsOfTwoKindsAreNotTakenForOne) {
+  drive("a.db", 0, {0.0, 0.0, 0.0});
+  drive("b.db", 1, {0.0, 700.0, 0.0});
+  const AgentId r1 = AgentId::parse("r1").value();
+  ASSERT_TRUE(output::keep_sea_level_heights(*store::Store::open(path("b.db"), r1)));
+  merge({path("a.db"), path("b.db")});
+  const auto store = store::Store::open_read_only(path("merged.db"));
+  ASSERT_TRUE(store) << store.error().message;
+  EXPECT_TRUE(output::has_sea_level_heights(*store));
+  EXPECT_THAT(output::unknown_heights(*store), ElementsAre(r1));
 }
 
 TEST_F(MergedStoreTest, MergedStoresCanBeMergedAgain) {
