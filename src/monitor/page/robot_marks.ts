@@ -1,8 +1,8 @@
 import * as THREE from 'three';
 import {shape} from './dom';
-import {linksOf} from './links';
+import {linksAt, linksOf, type RobotLink} from './links';
 import type {FleetMap} from './map';
-import {colourOf, type FleetNode, isNumber, type Live, type State} from './model';
+import {colourOf, type FleetNode, isNumber, type Live, type RadioHistory, type State} from './model';
 import type {Place} from './picking';
 
 const kLabel_px = 62; // half of the longest label
@@ -18,14 +18,18 @@ interface Mark {
   ellipse: THREE.Vector3[]; // where it is with 95 %; empty: not known
 }
 
-/** Each robot's last place on the map with its heading and name, and the links of the one that shows the page. */
+/**
+ * Each robot's last place on the map with its heading and name, and links: of a running robot that shows the page its
+ * own at present, of a run the logged ones of all robots at the time that is shown.
+ */
 export class RobotMarks {
   shown = true;
   private marks: Mark[] = [];
   private live?: Live;
+  private history?: RadioHistory;
   private heardAt = 0;
   private drawn = '';
-  private now = true; // the marks are of the present, not of an earlier time of the mission
+  private until = Infinity; // s; Infinity: the marks are of the present, or of the mission's end
 
   constructor(
     private map: FleetMap,
@@ -34,7 +38,8 @@ export class RobotMarks {
 
   /** Each robot at its last node until `until`, s. */
   show(state: State, until: number): void {
-    this.now = until === Infinity;
+    this.until = until;
+    this.history = state.radio ?? undefined;
     const last = new Map<string, FleetNode>();
     for (const node of state.nodes)
       if (node.T?.every(isNumber) && node.t <= until && node.t >= (last.get(node.robot)?.t ?? -Infinity))
@@ -70,30 +75,35 @@ export class RobotMarks {
   draw(): void {
     if (!this.shown) return this.replace([]);
     const places = new Map(this.marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
-    const links = this.now && this.live ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
+    const links = this.links();
     const lines: SVGElement[] = [],
       words: SVGElement[] = [],
       taken: Box[] = [];
     for (const [robot, place] of places)
       if (place) taken.push(boxOf(robot, place.x + 12 + 3.5 * robot.length, place.y - 10));
-    const self = places.get(this.live?.self ?? '');
-    for (const {robot, quality, text} of links) {
-      const other = places.get(robot);
-      if (!self || !other) continue;
-      const line = {x1: self.x, y1: self.y, x2: other.x, y2: other.y};
+    for (const {from, to, quality, text} of links) {
+      const one = places.get(from),
+        other = places.get(to);
+      if (!one || !other) continue;
+      const line = {x1: one.x, y1: one.y, x2: other.x, y2: other.y};
       lines.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
-      const box = boxOf(text, this.within((self.x + other.x) / 2), (self.y + other.y) / 2 - 5);
-      if (Math.hypot(other.x - self.x, other.y - self.y) < kLabel_px || taken.some((one) => overlap(one, box)))
+      const box = boxOf(text, this.within((one.x + other.x) / 2), (one.y + other.y) / 2 - 5);
+      if (Math.hypot(other.x - one.x, other.y - one.y) < kLabel_px || taken.some((label) => overlap(label, box)))
         continue;
       taken.push(box);
       words.push(label(text, box.x, box.y, 'link'));
     }
-    const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.robot));
+    const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.to));
     const robots = this.marks.flatMap((mark) => {
       const place = places.get(mark.robot);
       return place ? this.markOf(mark, place, silent.has(mark.robot)) : [];
     });
     this.replace([...lines, ...words, ...robots]);
+  }
+
+  private links(): RobotLink[] {
+    if (this.live) return this.until === Infinity ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
+    return this.history ? linksAt(this.history, this.until) : [];
   }
 
   /** Shapes that are drawn anew over the canvas make the browser compose the whole map again. */

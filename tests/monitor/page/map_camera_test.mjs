@@ -76,6 +76,28 @@ for (const planar of [true, false]) {
   assert.ok(Math.abs(400 * eye.metresPerPixel() - 15) < 1e-3);
 }
 
+// The view follows the fleet until somebody moves it; a look at the whole fleet begins anew.
+const follower = made();
+follower.fit(corners);
+const tight = follower.metresPerPixel();
+assert.ok(follower.follows);
+follower.fit(corners, 1.5);
+assert.ok(follower.follows && follower.metresPerPixel() > 1.3 * tight, 'with room');
+follower.setPlanar(true);
+assert.ok(follower.follows, 'a plan of the same is no other view');
+follower.setPlanar(false);
+for (const move of [
+  () => follower.pan(1, 0),
+  () => follower.zoom(2),
+  () => follower.turn(1, 0),
+  () => follower.goTo(corners[0]),
+]) {
+  move();
+  assert.ok(!follower.follows, String(move));
+  follower.fit(corners);
+  assert.ok(follower.follows);
+}
+
 // Plan and 3D look at the same place at the same scale; north is up on the plan.
 const eye = made();
 eye.fit(corners);

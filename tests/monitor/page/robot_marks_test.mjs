@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {openPage} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
-import {live, node, robot, robotNow, state} from './states.mjs';
+import {heardLink, live, node, radioHistory, robot, robotNow, state} from './states.mjs';
 
 await openPage(process.argv[2], '<svg id="robots"></svg>');
 const {ellipseOf, RobotMarks} = await pageModule(process.argv[2], 'robot_marks');
@@ -81,3 +81,19 @@ const diagonal = ellipseOf([2, 1.9, 2]);
 const furthest = diagonal.reduce((a, b) => (Math.hypot(...b) > Math.hypot(...a) ? b : a));
 assert.ok(Math.abs(furthest[0] - furthest[1]) < 1e-6, 'xx = yy and a positive xy: along the diagonal');
 assert.ok(ellipseOf([0, 0, 0]).every((corner) => Math.hypot(...corner) === 0));
+
+// A run has the links of the time that is shown, between any two robots.
+const run = new RobotMarks(map, overlay);
+const links = [
+  heardLink('r1', 'r2', 'long_range', 10, {loss_in: {0: 0, 5: 1}}),
+  heardLink('r3', 'r2', 'long_range', 10, {loss_in: {6: 0.5}}),
+];
+const logged = {...beside, radio: radioHistory({begin_s: 0, steps: 10, links})};
+const ends = () => all('line.link').map((one) => `${one.getAttribute('class')} ${one.getAttribute('y1')}`);
+run.show(logged, 2);
+assert.deepEqual(ends(), ['link good 0']);
+run.show(logged, Infinity);
+assert.deepEqual(ends(), ['link poor -205']);
+assert.ok(labels().every((one) => !one.includes('lost')));
+run.show(beside, Infinity);
+assert.deepEqual(ends(), []);
