@@ -5,6 +5,7 @@ const kFov = 50; // degrees
 const kFar = 20_000; // m
 const kNearest = 60; // m, of the picture's height when it goes to a place
 const kBorder = 20; // m
+const kInside = 0.9; // of the picture's half
 const kStep = 0.15; // of the picture's height
 
 type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
@@ -112,8 +113,25 @@ export class MapCamera {
     this.fitted = this.follows = true;
     const size = box.getSize(new THREE.Vector3()),
       aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    const span = room * Math.max(size.y, size.x / aspect) + kBorder;
-    this.aim(box.getCenter(new THREE.Vector3()), this.planar ? span : 1.2 * span);
+    const span = Math.max(size.y, size.x / aspect) + kBorder;
+    const middle = box.getCenter(new THREE.Vector3());
+    this.aim(middle, room * (this.planar ? span : this.spanOfAll(middle, span, places)));
+  }
+
+  /** Height of a picture in 3D that has all places: those before the middle look larger than on the plan. */
+  private spanOfAll(middle: THREE.Vector3, span: number, places: THREE.Vector3[]): number {
+    for (let k = 0; k < 5; ++k) {
+      this.aim(middle, span);
+      this.perspective.updateMatrixWorld();
+      const reaches = places.map((p) => {
+        const {x, y, z} = p.clone().project(this.perspective);
+        return z > 1 ? 2 * kInside : Math.max(Math.abs(x), Math.abs(y)); // behind the eye
+      });
+      const reach = reaches.reduce((most, one) => Math.max(most, one), 0);
+      if (reach <= kInside) break;
+      span *= reach / kInside;
+    }
+    return span;
   }
 
   /** Brings a place into the middle, and near enough to see it. */

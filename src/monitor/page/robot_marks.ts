@@ -78,9 +78,10 @@ export class RobotMarks {
     const links = this.links();
     const lines: SVGElement[] = [],
       words: SVGElement[] = [],
-      taken: Box[] = [];
+      taken: Box[] = [],
+      names = new Map<string, Box>();
     for (const [robot, place] of places)
-      if (place) taken.push(boxOf(robot, place.x + 12 + 3.5 * robot.length, place.y - 10));
+      if (place) names.set(robot, freeBox(boxOf(robot, place.x + 12 + 3.5 * robot.length, place.y - 10), taken));
     for (const {from, to, quality, text} of links) {
       const one = places.get(from),
         other = places.get(to);
@@ -88,7 +89,7 @@ export class RobotMarks {
       const line = {x1: one.x, y1: one.y, x2: other.x, y2: other.y};
       lines.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
       const box = boxOf(text, this.within((one.x + other.x) / 2), (one.y + other.y) / 2 - 5);
-      if (Math.hypot(other.x - one.x, other.y - one.y) < kLabel_px || taken.some((label) => overlap(label, box)))
+      if (Math.hypot(other.x - one.x, other.y - one.y) < kLabel_px || taken.some((there) => overlap(there, box)))
         continue;
       taken.push(box);
       words.push(label(text, box.x, box.y, 'link'));
@@ -96,7 +97,7 @@ export class RobotMarks {
     const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.to));
     const robots = this.marks.flatMap((mark) => {
       const place = places.get(mark.robot);
-      return place ? this.markOf(mark, place, silent.has(mark.robot)) : [];
+      return place ? this.markOf(mark, place, names.get(mark.robot)!.y, silent.has(mark.robot)) : [];
     });
     this.replace([...lines, ...words, ...robots]);
   }
@@ -120,7 +121,8 @@ export class RobotMarks {
     return width > 2 * kLabel_px ? Math.min(width - kLabel_px, Math.max(kLabel_px, x)) : x;
   }
 
-  private markOf({robot, colour, p, ahead, ellipse}: Mark, {x, y}: Place, silent: boolean): SVGElement[] {
+  private markOf(mark: Mark, {x, y}: Place, nameY: number, silent: boolean): SVGElement[] {
+    const {robot, colour, p, ahead, ellipse} = mark;
     const shapes: SVGElement[] = [];
     const corners = ellipse.map((corner) => this.map.project(corner));
     if (corners.length > 0 && corners.every((one) => one !== undefined)) {
@@ -139,7 +141,7 @@ export class RobotMarks {
         'data-mark': robot,
         style: `fill:${fill};stroke:${stroke}`,
       }),
-      label(silent ? `${robot} (lost)` : robot, x + 12, y - 10, 'robot-name'),
+      label(silent ? `${robot} (lost)` : robot, x + 12, nameY, 'robot-name'),
     );
     return shapes;
   }
@@ -168,6 +170,14 @@ interface Box {
 
 const boxOf = (text: string, x: number, y: number): Box => ({x, y, half: 3.5 * text.length});
 const overlap = (a: Box, b: Box) => Math.abs(a.x - b.x) < a.half + b.half && Math.abs(a.y - b.y) < kLine_px;
+
+/** Above the labels that are there already, which it then is, too. */
+function freeBox(box: Box, taken: Box[]): Box {
+  let y = box.y;
+  while (taken.some((one) => overlap(one, {...box, y}))) y -= 1;
+  taken.push({...box, y});
+  return {...box, y};
+}
 
 function label(text: string, x: number, y: number, kind: string): SVGElement {
   return shape('text', {x: x.toFixed(1), y: y.toFixed(1), class: kind}, text);

@@ -76,6 +76,26 @@ for (const planar of [true, false]) {
   assert.ok(Math.abs(400 * eye.metresPerPixel() - 15) < 1e-3);
 }
 
+// A fleet that is as deep as it is wide, of which the near side looks larger, is in the picture as a whole.
+const deep = made();
+const square = [
+  [0, 0],
+  [200, 0],
+  [0, 200],
+  [200, 200],
+].map(([x, y]) => new Vector3(x, y, 5));
+for (const turned of [0, 0.4, 1.2]) {
+  deep.turn(turned, 0);
+  deep.fit(square);
+  const seen = square.map((p) => pixel(deep, p));
+  assert.ok(
+    seen.every(([x, y]) => x > 0 && x < 800 && y > 0 && y < 400),
+    String(seen),
+  );
+  const rows = seen.map(([, y]) => y);
+  assert.ok(Math.max(...rows) - Math.min(...rows) > 150, `fills too little of the picture: ${rows}`);
+}
+
 // The view follows the fleet until somebody moves it; a look at the whole fleet begins anew.
 const follower = made();
 follower.fit(corners);

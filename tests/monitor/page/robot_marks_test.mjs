@@ -59,6 +59,11 @@ marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: said}), robotNow('r3
 assert.deepEqual([all('line.link').length, all('text.link').length], [2, 1]);
 marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: [{link: 'long_range', seconds_ago: 90}]})]));
 
+// Names of robots at one place are above each other.
+marks.show(state({nodes: [node('r1', 0, [5, 5, 0]), node('r2', 0, [5, 5, 0])]}), Infinity);
+const [lower, upper] = all('text.robot-name').map((one) => Number(one.getAttribute('y')));
+assert.ok(lower - upper >= 15, `${lower} and ${upper}`);
+
 // At an earlier time robots are where they were; links are of the present.
 marks.show(fleet, 3);
 assert.deepEqual(labels(), ['r1']);
