@@ -165,7 +165,9 @@ async function radioOfARun(page) {
     }, share);
   await drawn(1);
   assert.equal(await page.locator('#robots line.link.good').count(), 1);
-  await page.waitForFunction(() => /heard at the time of the slider/.test(document.getElementById('legend').textContent));
+  await page.waitForFunction(() =>
+    /heard at the time of the slider/.test(document.getElementById('legend').textContent),
+  );
   await slideTo(0.1);
   await drawn(0);
   await slideTo(0.52);

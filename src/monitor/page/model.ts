@@ -218,6 +218,7 @@ export interface RobotNow {
   heard: {link: LinkName; seconds_ago: number}[];
   battery: number | null;
   sigma_m: number | null;
+  place: [number, number, number, number] | null; // by its EKF: latitude, longitude (deg), altitude (m), heading (rad)
   clock: {sensor: string; behind_s: number} | null; // that is off most, within a factor of 1.4
   nodes: number;
   alignments: number;

@@ -1,9 +1,11 @@
 import * as THREE from 'three';
 import {shape} from './dom';
+import {type Geo, toEnu} from './geodesy';
 import {linksAt, linksOf, type RobotLink} from './links';
 import type {FleetMap} from './map';
 import {colourOf, type FleetNode, isNumber, type Live, type RadioHistory, type State} from './model';
 import type {Place} from './picking';
+import {matrixOf} from './submap';
 
 const kLabel_px = 62; // half of the longest label
 const kLine_px = 15;
@@ -15,16 +17,18 @@ interface Mark {
   colour: string;
   p: THREE.Vector3;
   ahead: THREE.Vector3; // a place in front of it
-  ellipse: THREE.Vector3[]; // where it is with 95 %; empty: not known
+  ellipse: THREE.Vector3[]; // where it is with 95 %, around p; empty: not known
+  T_map_enu?: THREE.Matrix4; // what alignments corrected at its last node, which holds for its EKF, too
 }
 
 /**
- * Each robot's last place on the map with its heading and name, and links: of a running robot that shows the page its
- * own at present, of a run the logged ones of all robots at the time that is shown.
+ * Each robot's place on the map with its heading and name: at its last node, or where its last status has it. Links: of
+ * a running robot that shows the page its own at present, of a run the logged ones of all robots at the time shown.
  */
 export class RobotMarks {
   shown = true;
   private marks: Mark[] = [];
+  private origin?: Geo; // of ENU
   private live?: Live;
   private history?: RadioHistory;
   private heardAt = 0;
@@ -39,6 +43,7 @@ export class RobotMarks {
   /** Each robot at its last node until `until`, s. */
   show(state: State, until: number): void {
     this.until = until;
+    this.origin = state.origin;
     this.history = state.radio ?? undefined;
     const last = new Map<string, FleetNode>();
     for (const node of state.nodes)
@@ -59,7 +64,8 @@ export class RobotMarks {
         colour: colourOf(state, robot),
         p,
         ahead: ahead.add(p),
-        ellipse: covariance ? ellipseOf(covariance).map(([dx, dy]) => new THREE.Vector3(x + dx, y + dy, z)) : [],
+        ellipse: covariance ? ellipseOf(covariance).map(([dx, dy]) => new THREE.Vector3(dx, dy, 0)) : [],
+        T_map_enu: node.gps?.every(isNumber) ? matrixOf(node.T!).multiply(matrixOf(node.gps).invert()) : undefined,
       };
     });
     this.draw();
@@ -74,7 +80,8 @@ export class RobotMarks {
   /** After each picture of the map. */
   draw(): void {
     if (!this.shown) return this.replace([]);
-    const places = new Map(this.marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
+    const marks = this.marks.map((mark) => this.atPresent(mark));
+    const places = new Map(marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
     const links = this.links();
     const lines: SVGElement[] = [],
       words: SVGElement[] = [],
@@ -95,11 +102,22 @@ export class RobotMarks {
       words.push(label(text, box.x, box.y, 'link'));
     }
     const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.to));
-    const robots = this.marks.flatMap((mark) => {
+    const robots = marks.flatMap((mark) => {
       const place = places.get(mark.robot);
       return place ? this.markOf(mark, place, names.get(mark.robot)!.y, silent.has(mark.robot)) : [];
     });
     this.replace([...lines, ...words, ...robots]);
+  }
+
+  /** Moved to where the robot's last status has it, while the present is shown. */
+  private atPresent(mark: Mark): Mark {
+    const place = this.until === Infinity && this.live?.robots.find(({id}) => id === mark.robot)?.place;
+    if (!place || !mark.T_map_enu || !this.origin) return mark;
+    const [latitude_deg, longitude_deg, altitude_m, heading] = place;
+    const enu = new THREE.Vector3(...toEnu(this.origin, {latitude_deg, longitude_deg, altitude_m}));
+    const p = enu.clone().applyMatrix4(mark.T_map_enu).setZ(mark.p.z); // the height of an EKF's place is its worst
+    const ahead = enu.add(new THREE.Vector3(Math.cos(heading), Math.sin(heading), 0)).applyMatrix4(mark.T_map_enu);
+    return {...mark, p, ahead: ahead.setZ(p.z)};
   }
 
   private links(): RobotLink[] {
@@ -124,7 +142,7 @@ export class RobotMarks {
   private markOf(mark: Mark, {x, y}: Place, nameY: number, silent: boolean): SVGElement[] {
     const {robot, colour, p, ahead, ellipse} = mark;
     const shapes: SVGElement[] = [];
-    const corners = ellipse.map((corner) => this.map.project(corner));
+    const corners = ellipse.map((corner) => this.map.project(corner.clone().add(p)));
     if (corners.length > 0 && corners.every((one) => one !== undefined)) {
       const points = corners.map((one) => `${one!.x.toFixed(1)},${one!.y.toFixed(1)}`).join(' ');
       shapes.push(shape('polygon', {points, class: 'ellipse', style: `fill:${colour}`}));

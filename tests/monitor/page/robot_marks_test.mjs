@@ -64,6 +64,27 @@ marks.show(state({nodes: [node('r1', 0, [5, 5, 0]), node('r2', 0, [5, 5, 0])]}),
 const [lower, upper] = all('text.robot-name').map((one) => Number(one.getAttribute('y')));
 assert.ok(lower - upper >= 15, `${lower} and ${upper}`);
 
+// A running robot is where its last status has it, moved and turned as alignments moved its last node.
+const aligned = state({
+  nodes: [node('r1', 0, [5, 5, 0], {T: [5, 5, 0, 0, 0, north, north], gps: [4, 5, 0, 0, 0, 0, 1]})],
+});
+const origin = aligned.origin;
+marks.show(aligned, Infinity);
+const status = (place) => marks.showLive(live([robotNow('r1', {place})], {}));
+status([origin.latitude_deg, origin.longitude_deg, origin.altitude_m, 0]);
+assert.equal(
+  marksOf('r1').getAttribute('transform'),
+  'translate(100.0 -10.0) rotate(-90.0)',
+  'it is 4 m west and 5 m south of its node by its EKF, which the map has turned by 90 degrees',
+);
+marks.show(aligned, 10);
+assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(-90.0)', 'as it was then');
+marks.show(state({nodes: [node('r1', 0, [5, 5, 0])]}), Infinity);
+assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(0.0)', 'nothing ties it to ENU');
+status(null);
+marks.show(aligned, Infinity);
+assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(-90.0)', 'not known');
+
 // At an earlier time robots are where they were; links are of the present.
 marks.show(fleet, 3);
 assert.deepEqual(labels(), ['r1']);

@@ -92,6 +92,7 @@ export const robotNow = (id, more = {}) => ({
   heard: [],
   battery: null,
   sigma_m: null,
+  place: null,
   clock: null,
   nodes: 0,
   alignments: 0,
