@@ -1,25 +1,19 @@
 #include "loaded_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <utility>
 
 #include "fleetmap/core/paths.hpp"
 #include "fleetmap/core/text_list.hpp"
 #include "fleetmap/output/line_file.hpp"
-#include "fleetmap/output/link_trace.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/registrations_file.hpp"
 #include "fleetmap/output/robot_folders.hpp"
 #include "maps/stored_map.hpp"
-#include "radio_history.hpp"
 #include "report/candidate_report.hpp"
 
 namespace fleetmap::apps {
@@ -44,28 +38,9 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
   for (const auto& [maker, holding] : by_maker) holdings.push_back(holding);
 }
 
-/// Adds the candidates and the radio's use that report.json in `folder` has, unless it is of a run before
-/// that which wrote `store`.
-void add_report(const fs::path& folder, const fs::path& store, const AgentId& self,
-                monitor::FleetView& view) {
-  constexpr auto kClosedAfterwards = std::chrono::minutes(10);
-  const fs::path file = folder / "report.json";
-  std::error_code none, missing;
-  const auto written = fs::last_write_time(file, none);
-  if (none || fs::last_write_time(store, missing) - written > kClosedAfterwards) return;
-  std::ifstream in(file);
-  const auto report = nlohmann::json::parse(in, nullptr, false);
-  std::ranges::move(reported_candidates(report, self), std::back_inserter(view.candidates));
-  add_radio_use(report, self, view.radio);
-}
-
-/// Reports do not tell how much of a kind was sent to whom, so there are no kinds without one of the robots.
-void leave_out(const std::function<bool(const AgentId&)>& left_out, monitor::RadioHistory& radio) {
-  std::erase_if(radio.links,
-                [&](const monitor::HeardLink& one) { return left_out(one.from) || left_out(one.to); });
-  std::erase_if(radio.traces, left_out);
-  radio.kinds.clear();
-  radio.reports.clear();
+/// Adds the candidates that the report of a robot, or of a whole run, has.
+void add_candidates(const RobotFiles& files, monitor::FleetView& view) {
+  std::ranges::move(reported_candidates(report_of(files), files.robot), std::back_inserter(view.candidates));
 }
 
 /// Removes what the robots in `without` did, and what others did with it.
@@ -82,29 +57,10 @@ void leave_out(std::span<const AgentId> without, monitor::FleetView& view) {
   std::erase_if(view.holdings,
                 [&](const monitor::Holding& one) { return left_out(one.holder) || left_out(one.maker); });
   std::erase_if(view.logs, left_out);
-  leave_out(left_out, view.radio);
   if (left_out(view.self)) view.self = {};
   std::string names;
   for (const AgentId& robot : without) append_to_list(names, robot.str());
   view.notes.push_back("left out (--without): " + names);
-}
-
-/// Messages that the robots whose folders these are heard over the radios.
-void add_radio(const std::vector<std::pair<AgentId, fs::path>>& folders, monitor::FleetView& view) {
-  std::vector<output::LinkTraceRow> rows;
-  std::vector<AgentId> traces;
-  for (const auto& [robot, folder] : folders) {
-    const fs::path file = folder / output::kLinkTraceFile;
-    output::LinkTrace trace = output::read_link_trace(file);
-    if (trace.damaged > 0)
-      view.notes.push_back(file.string() + ": " + std::to_string(trace.damaged) + " lines cannot be read");
-    if (!trace.rows.empty()) traces.push_back(robot);
-    std::ranges::move(trace.rows, std::back_inserter(rows));
-  }
-  const monitor::RadioHistory before = std::exchange(view.radio, radio_history(std::move(rows)));
-  view.radio.traces = std::move(traces);
-  view.radio.reports = before.reports;
-  view.radio.kinds = before.kinds;
 }
 
 Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
@@ -182,14 +138,15 @@ void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView&
 Result<LoadedRun> open_one(const fs::path& file, std::span<const AgentId> without) {
   auto store = open_store(file);
   if (!store) return tl::unexpected(store.error());
-  LoadedRun run{std::move(*store), {}};
+  LoadedRun run;
+  run.store = std::move(*store);
   run.view.title = file.string();
   if (const Status placed = place_held(*run.store, file, without, run.view); !placed)
     return tl::unexpected(placed.error());
   add_holdings(*run.store, run.view.holdings);
   add_attempts(file.parent_path(), run.store->self(), run.view);
-  add_report(file.parent_path(), file, run.store->self(), run.view);
-  add_radio({{run.store->self(), file.parent_path()}}, run.view);
+  run.files = {{run.store->self(), file.parent_path(), file}};
+  add_candidates(run.files.front(), run.view);
   leave_out(without, run.view);
   return run;
 }
@@ -206,7 +163,6 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
   if (!is_folder(directory)) return failure(directory.string() + ": no such folder; give the --out of a run");
   LoadedRun run;
   fs::path shown;
-  std::vector<std::pair<AgentId, fs::path>> folders;
   for (const fs::path& file : robot_stores(directory)) {
     auto store = open_store(file);
     if (!store) {
@@ -215,8 +171,8 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
     }
     add_holdings(**store, run.view.holdings);
     add_attempts(file.parent_path(), (*store)->self(), run.view);
-    add_report(file.parent_path(), file, (*store)->self(), run.view);
-    folders.emplace_back((*store)->self(), file.parent_path());
+    run.files.push_back({(*store)->self(), file.parent_path(), file});
+    add_candidates(run.files.back(), run.view);
     const bool wanted = robot.empty() ? !run.store || (*store)->nodes().size() > run.store->nodes().size()
                                       : (*store)->self().str() == robot;
     if (!wanted) continue;
@@ -226,8 +182,8 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
   if (!run.store)
     return failure(directory.string() + ": holds no " +
                    (robot.empty() ? "robot's store.db" : "store of " + robot) + "; give the --out of a run");
-  add_report(directory, shown, run.store->self(), run.view);
-  add_radio(folders, run.view);
+  run.files.push_back({run.store->self(), directory, shown});
+  add_candidates(run.files.back(), run.view);
   run.view.title = fs::weakly_canonical(directory).filename().string();
   if (const Status placed = place_held(*run.store, shown, without, run.view); !placed)
     return tl::unexpected(placed.error());

@@ -28,7 +28,7 @@ export class RadioPanel {
   private begin?: number;
 
   constructor(private root: HTMLElement) {
-    root.append(
+    root.replaceChildren(
       this.headline,
       this.wifi,
       this.access,

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "apps/driven_days.hpp"
-#include "fleetmap/output/link_trace.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/registrations_file.hpp"
 #include "store/items.hpp"
@@ -128,36 +127,6 @@ TEST_F(ShownRunTest, OfARobotThatIsLeftOutNothingIsShownButItsName) {
     EXPECT_THAT(monitor::robots_of(view), ElementsAre(r1));
     EXPECT_THAT(view.notes, ElementsAre("left out (--without): r2"));
   }
-}
-
-TEST_F(ShownRunTest, TheRadiosHistoryIsOfAllRobotsWhoseFilesAreThere) {
-  add_robot("r1", 0);
-  const AgentId r1 = AgentId::parse("r1").value(), r2 = AgentId::parse("r2").value();
-  {
-    auto store = store::Store::open(days_.path("run/r1/store.db"), r1).value();
-    const Bytes submap(10, 1);
-    ASSERT_TRUE(store.put_node_with_submap(testing::make_node(r2, 0, submap), submap));
-  }
-  const std::string header = std::string(output::kLinkTraceHeader) + '\n';
-  std::ofstream(days_.path("run/r1/link_trace.csv")) << header << "5.0,long_range,r2,r1,,,0.0,0.8,1\n5.0,lon";
-  std::ofstream(days_.path("run/r1/report.json"))
-      << R"({"topics": [{"link": "long_range", "kind": "node", "sent_bytes": 7, "received_bytes": 9}]})";
-  const auto run = open_run(days_.path("run"), "");
-  const auto one = open_one(days_.path("run/r1/store.db"));
-  for (const auto* shown : {&run, &one}) {
-    ASSERT_TRUE(*shown) << shown->error().message;
-    const monitor::RadioHistory& radio = (*shown)->view.radio;
-    EXPECT_THAT(radio.traces, ElementsAre(r1));
-    ASSERT_THAT(radio.links, SizeIs(1));
-    EXPECT_EQ(radio.links[0].bytes, 100.0);
-    ASSERT_THAT(radio.kinds, SizeIs(1));
-    EXPECT_EQ(radio.kinds[0].received_bytes, 9u);
-    EXPECT_THAT((*shown)->view.notes, ElementsAre(HasSubstr("link_trace.csv: 1 lines cannot be read")));
-  }
-  const auto without = open_run(days_.path("run"), "", std::vector{r2});
-  ASSERT_TRUE(without) << without.error().message;
-  EXPECT_THAT(without->view.radio.links, IsEmpty());
-  EXPECT_THAT(without->view.radio.kinds, IsEmpty());
 }
 
 TEST_F(ShownRunTest, WithoutTheRobotThatWasAskedForNothingIsShown) {
