@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates_json.hpp"
+#include "fleetmap/geometry/degree.hpp"
 #include "rounded_json.hpp"
 
 namespace fleetmap::monitor {
@@ -13,6 +14,14 @@ using nlohmann::json;
 
 json clock_json(const std::optional<ClockNow>& clock) {
   return clock ? json{{"sensor", clock->sensor}, {"behind_s", clock->behind_s}} : json();
+}
+
+/// Latitude and longitude in degrees, altitude in m, heading in rad; 1e-7 degrees are a centimetre.
+json place_json(const std::optional<PlaceNow>& place) {
+  if (!place) return {};
+  const GeoPoint& at = place->position;
+  return {rounded(at.latitude / kDegree, 1e8), rounded(at.longitude / kDegree, 1e8),
+          rounded(at.altitude, 1e2), rounded(place->heading, 1e3)};
 }
 
 json past_json(const std::vector<PastProblem>& past) {
@@ -34,6 +43,7 @@ json robot_json(const RobotNow& robot) {
           {"heard", std::move(heard)},
           {"battery", optional_json(robot.battery, 1e3)},
           {"sigma_m", optional_json(robot.sigma_m, 1e3)},
+          {"place", place_json(robot.place)},
           {"clock", clock_json(robot.clock)},
           {"nodes", robot.nodes},
           {"alignments", robot.alignments},

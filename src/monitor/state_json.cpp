@@ -12,6 +12,8 @@
 #include "candidates_json.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/monitor/pair_answer.hpp"
+#include "names_json.hpp"
+#include "radio_history_json.hpp"
 #include "rounded_json.hpp"
 #include "session_answer.hpp"
 
@@ -50,6 +52,12 @@ Stamp begin_of(const FleetView& view) {
   for (std::size_t k = 0; k < view.nodes.size(); ++k)
     begin = k == 0 ? view.nodes[k].stamp : std::min(begin, view.nodes[k].stamp);
   return begin;
+}
+
+Stamp end_of(const FleetView& view) {
+  Stamp end = begin_of(view);
+  for (const graph::Node& node : view.nodes) end = std::max(end, node.stamp);
+  return end;
 }
 
 /// The component of each frame that nothing ties to a place on Earth, as an index in Placement::components.
@@ -230,12 +238,6 @@ json holdings_json(const FleetView& view) {
   return holdings;
 }
 
-json names_of(const std::vector<AgentId>& robots) {
-  json names = json::array();
-  for (const AgentId& robot : robots) names.push_back(robot.str());
-  return names;
-}
-
 json answers_json(const FleetView& view) {
   json answers = json::array();
   for (const PairAnswer& answer : explain_pairs(view)) {
@@ -247,7 +249,7 @@ json answers_json(const FleetView& view) {
              {"attempts", answer.attempts},
              {"accepted", answer.accepted},
              {"used", answer.used},
-             {"missing_logs", names_of(answer.missing_logs)},
+             {"missing_logs", names_json(answer.missing_logs)},
              {"nearest_m", optional_json(answer.nearest_m, 1e5)}};
     if (answer.nearest)
       one["nearest"] = {to_string(answer.nearest->first), to_string(answer.nearest->second)};
@@ -271,11 +273,12 @@ std::string state_json(const FleetView& view) {
                    {"nodes", nodes_json(view)},
                    {"alignments", alignments_json(view, outcomes)},
                    {"registrations", attempts_json(view, outcomes)},
-                   {"logs", names_of(view.logs)},
+                   {"logs", names_json(view.logs)},
                    {"holdings", holdings_json(view)},
                    {"pairs", answers_json(view)},
                    {"candidates", candidates_json(view.candidates)},
                    {"loose_sessions", loose_sessions(view)},
+                   {"radio", radio_history_json(view.radio, begin_of(view), end_of(view))},
                    {"notes", view.notes}};
   return state.dump(-1, ' ', false, json::error_handler_t::replace);
 }

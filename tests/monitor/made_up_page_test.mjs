@@ -1,12 +1,22 @@
 // The page with made-up fleets in headless Chromium, without the program: twelve robots on a phone, what a refresh each
-// second leaves alone, links on the plan, keys, and the reasons of a refusal.
+// second leaves alone, links on the plan, a run's radio, keys, and the reasons of a refusal.
 //   node made_up_page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
 import assert from 'node:assert/strict';
 import {readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join, resolve} from 'node:path';
 import {cardIsBesideItsThing, everythingIsNamed, folder, openBrowser, pageFolder, shot} from './browser.mjs';
-import {live, node, pair, registration, robot, robotNow, state} from './page/states.mjs';
+import {
+  heardLink,
+  live,
+  node,
+  pair,
+  radioHistory,
+  registration,
+  robot,
+  robotNow,
+  state,
+} from './page/states.mjs';
 
 const {build} = createRequire(resolve(pageFolder, 'package.json'))('esbuild');
 const {outputFiles} = await build({
@@ -45,8 +55,8 @@ function now() {
   return status;
 }
 
-/** A page that the made-up program answers; `send` passes messages on, `refused`: it opens no WebSocket. */
-async function open(browser, width, height, refused) {
+/** A page that the made-up program answers; `send` passes messages on. Without `messages` it opens no WebSocket. */
+async function open(browser, width, height, messages = [fleet(30), {live: now()}]) {
   const context = await browser.newContext({viewport: {width, height}, isMobile: width < 500, hasTouch: width < 500});
   const page = await context.newPage();
   const errors = [];
@@ -59,11 +69,11 @@ async function open(browser, width, height, refused) {
   let socket;
   await page.routeWebSocket('ws://robot.test/live', (one) => {
     socket = one;
-    if (refused) one.close();
+    if (!messages) one.close();
   });
   await page.goto('http://robot.test/');
   const send = (...messages) => messages.forEach((one) => socket.send(JSON.stringify(one)));
-  if (!refused) send(fleet(30), {live: now()});
+  if (messages) send(...messages);
   const end = async () => {
     assert.deepEqual(errors, []);
     await context.close();
@@ -131,6 +141,44 @@ async function onADesk(page, send) {
   await shot(page, 'made_up_desk');
 }
 
+/** A run of 100 s that is over: robot-1 and robot-2 met in its middle, robot-3 was heard at the end. */
+function run() {
+  const links = [
+    heardLink('robot-2', 'robot-1', 'short_range', 100, {bytes: 3e6, loss_in: {50: 0.3}, received: {50: 3e6}}),
+    heardLink('robot-3', 'robot-1', 'long_range', 100, {bytes: 900, loss_in: {98: 0}, received: {98: 900}}),
+  ];
+  const kinds = [{link: 'long_range', kind: 'node', sent: 900, received: 900}];
+  const nodes = names
+    .slice(0, 3)
+    .flatMap((id, k) => [0, 99].map((t) => node(id, t, [20, 20 * k, 0], {submap: undefined})));
+  return {...fleet(0), nodes, radio: radioHistory({begin_s: 0, steps: 100, links, kinds, traces: ['robot-1']})};
+}
+
+/** Sums, charts and tables; on the plan the links of the time that the slider shows. */
+async function radioOfARun(page) {
+  const drawn = (count) =>
+    page.waitForFunction((n) => document.querySelectorAll('#robots line.link').length === n, count);
+  const slideTo = (share) =>
+    page.locator('#time').evaluate((slider, share) => {
+      slider.value = String(1000 * share);
+      slider.dispatchEvent(new Event('input'));
+    }, share);
+  await drawn(1);
+  assert.equal(await page.locator('#robots line.link.good').count(), 1);
+  await page.waitForFunction(() =>
+    /heard at the time of the slider/.test(document.getElementById('legend').textContent),
+  );
+  await slideTo(0.1);
+  await drawn(0);
+  await slideTo(0.52);
+  await drawn(1);
+  assert.equal(await page.locator('#robots line.link.poor').count(), 1);
+  await page.locator('#tab-radio').click();
+  assert.match(await page.locator('#radio').textContent(), /robot-1 heard 900\sB.*3\.0\sMB.*at 0:50/s);
+  assert.equal(await page.locator('#radio canvas').count(), 2);
+  await shot(page, 'made_up_run_radio');
+}
+
 /** Everything that a finger is to hit is at least 36 px wide and high; the label of a checkbox is part of it. */
 async function targetsAreLarge(page) {
   await page.locator('.layers summary').click();
@@ -176,7 +224,11 @@ try {
   }
   await onAPhone(phone.page);
   await phone.end();
-  const refused = await open(browser, 390, 844, true);
+  const over = await open(browser, 1366, 768, [run()]);
+  await radioOfARun(over.page);
+  await everythingIsNamed(over.page);
+  await over.end();
+  const refused = await open(browser, 390, 844, null);
   await refused.page.waitForFunction(() =>
     /Refused: too many pages are open; close one\./.test(document.getElementById('connection').textContent),
   );

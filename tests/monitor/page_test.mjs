@@ -93,6 +93,15 @@ async function onADesk(page, state) {
   await planByKeyboard(page);
   await nodeTellsWhatItIs(page, state);
   await measuresWhatTheScaleSays(page);
+  await radioHasTheKinds(page);
+}
+
+/** A run in virtual time logs no second of a link, and its report counts what each kind sent. */
+async function radioHasTheKinds(page) {
+  await page.locator('#tab-radio').click();
+  assert.match(await spaced(page.locator('#radio .headline')), /a run in virtual time writes none/);
+  assert.match(await spaced(page.locator('#radio [data-of=kinds]')), /noderadio\d+\.\d kB–/);
+  await shot(page, 'desk_radio');
 }
 
 /** The two clouds of a registration alone, before it and as placed. */

@@ -12,6 +12,7 @@
 #include "fleetmap/graph/placement.hpp"
 #include "fleetmap/monitor/attempt.hpp"
 #include "fleetmap/monitor/pair_candidates.hpp"
+#include "fleetmap/monitor/radio_history.hpp"
 
 namespace fleetmap::monitor {
 
@@ -38,6 +39,7 @@ struct FleetView {
   std::vector<AgentId> logs;               ///< robots whose registrations.csv was read
   std::vector<PairCandidates> candidates;  ///< of finished robots, as their reports have them
   std::vector<Holding> holdings;           ///< of all robots whose stores are known
+  RadioHistory radio;                      ///< of finished robots, as their files have it
   std::vector<std::string> notes;          ///< files that could not be read
 };
 

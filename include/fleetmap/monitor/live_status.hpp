@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fleetmap/core/ids.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/monitor/pair_candidates.hpp"
 
 namespace fleetmap::monitor {
@@ -30,6 +31,12 @@ struct PastProblem {
   std::optional<double> seconds_ago;  ///< it was there or grew last; empty: before anyone looked
 };
 
+/// The place of a robot by its own EKF, which no alignment corrects.
+struct PlaceNow {
+  GeoPoint position;
+  double heading = 0.0;  ///< rad, counter-clockwise from east
+};
+
 /// One robot at present, as the robot that shows the page has heard of it.
 struct RobotNow {
   AgentId id;
@@ -40,6 +47,7 @@ struct RobotNow {
   std::vector<LastHeard> heard;       ///< empty: not heard yet, or this robot itself
   std::optional<double> battery;      ///< share left
   std::optional<double> sigma_m;      ///< m, horizontal, of its own G
+  std::optional<PlaceNow> place;      ///< by its last status; empty: not known
   std::optional<ClockNow> clock;      ///< empty: not known
   std::size_t nodes = 0, alignments = 0, submaps = 0;  ///< held
   std::size_t backlog_bytes = 0;                       ///< waiting for its radio

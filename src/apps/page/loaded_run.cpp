@@ -1,7 +1,6 @@
 #include "loaded_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -39,16 +38,9 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
   for (const auto& [maker, holding] : by_maker) holdings.push_back(holding);
 }
 
-/// Adds the candidates that report.json in `folder` has, unless it is of a run before that which wrote
-/// `store`.
-void add_candidates(const fs::path& folder, const fs::path& store, const AgentId& self,
-                    monitor::FleetView& view) {
-  constexpr auto kClosedAfterwards = std::chrono::minutes(10);
-  const fs::path report = folder / "report.json";
-  std::error_code none, missing;
-  const auto written = fs::last_write_time(report, none);
-  if (none || fs::last_write_time(store, missing) - written > kClosedAfterwards) return;
-  std::ranges::move(reported_candidates(report, self), std::back_inserter(view.candidates));
+/// Adds the candidates that the report of a robot, or of a whole run, has.
+void add_candidates(const RobotFiles& files, monitor::FleetView& view) {
+  std::ranges::move(reported_candidates(report_of(files), files.robot), std::back_inserter(view.candidates));
 }
 
 /// Removes what the robots in `without` did, and what others did with it.
@@ -146,13 +138,15 @@ void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView&
 Result<LoadedRun> open_one(const fs::path& file, std::span<const AgentId> without) {
   auto store = open_store(file);
   if (!store) return tl::unexpected(store.error());
-  LoadedRun run{std::move(*store), {}};
+  LoadedRun run;
+  run.store = std::move(*store);
   run.view.title = file.string();
   if (const Status placed = place_held(*run.store, file, without, run.view); !placed)
     return tl::unexpected(placed.error());
   add_holdings(*run.store, run.view.holdings);
   add_attempts(file.parent_path(), run.store->self(), run.view);
-  add_candidates(file.parent_path(), file, run.store->self(), run.view);
+  run.files = {{run.store->self(), file.parent_path(), file}};
+  add_candidates(run.files.front(), run.view);
   leave_out(without, run.view);
   return run;
 }
@@ -177,7 +171,8 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
     }
     add_holdings(**store, run.view.holdings);
     add_attempts(file.parent_path(), (*store)->self(), run.view);
-    add_candidates(file.parent_path(), file, (*store)->self(), run.view);
+    run.files.push_back({(*store)->self(), file.parent_path(), file});
+    add_candidates(run.files.back(), run.view);
     const bool wanted = robot.empty() ? !run.store || (*store)->nodes().size() > run.store->nodes().size()
                                       : (*store)->self().str() == robot;
     if (!wanted) continue;
@@ -187,7 +182,8 @@ Result<LoadedRun> open_run(const fs::path& directory, const std::string& robot,
   if (!run.store)
     return failure(directory.string() + ": holds no " +
                    (robot.empty() ? "robot's store.db" : "store of " + robot) + "; give the --out of a run");
-  add_candidates(directory, shown, run.store->self(), run.view);
+  run.files.push_back({run.store->self(), directory, shown});
+  add_candidates(run.files.back(), run.view);
   run.view.title = fs::weakly_canonical(directory).filename().string();
   if (const Status placed = place_held(*run.store, shown, without, run.view); !placed)
     return tl::unexpected(placed.error());

@@ -10,6 +10,7 @@
 #include "fleetmap/monitor/fleet_view.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/store/store.hpp"
+#include "robot_files.hpp"
 
 namespace fleetmap::apps {
 
@@ -18,6 +19,7 @@ namespace fleetmap::apps {
 struct LoadedRun {
   std::unique_ptr<store::Store> store;
   monitor::FleetView view;
+  std::vector<RobotFiles> files;  ///< of each robot, and of the run as a whole
 };
 
 /// All that a store holds, placed as its results were.

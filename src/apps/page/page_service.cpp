@@ -11,6 +11,7 @@
 #include "maps/stored_map.hpp"
 #include "options.hpp"
 #include "preview_files.hpp"
+#include "run_radio.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -38,7 +39,9 @@ CommandResult<ExitCode> serve_page(const MonitorOptions& options, std::ostream& 
   const auto without = robots_named(options.without);
   if (!without) return exit_with(kUsage, without.error());
   const LiveMonitor::Read read = [&] {
-    return one ? open_one(options.store, *without) : open_run(options.run, options.robot, *without);
+    auto run = one ? open_one(options.store, *without) : open_run(options.run, options.robot, *without);
+    if (run) add_radio(*run, *without);
+    return run;
   };
   const LiveMonitor::Stores stores = [&] {
     return one ? std::vector{fs::path(options.store)} : robot_stores(options.run);

@@ -110,7 +110,10 @@ void add_status(const messages::AgentStatus& status, monitor::RobotNow& robot) {
   robot.submaps = status.submaps;
   robot.backlog_bytes = status.backlog_bytes;
   if (status.battery >= 0.0f) robot.battery = status.battery;
-  if (status.position_stddev > 0.0f) robot.sigma_m = status.position_stddev;
+  if (status.position_stddev > 0.0f) {
+    robot.sigma_m = status.position_stddev;
+    robot.place = {status.position, status.heading};
+  }
   if (const auto behind = messages::seconds_behind(status.health.clock_offset)) {
     robot.clock = {sensor::to_string(static_cast<sensor::Source>(status.health.clock_sensor)), *behind};
   }

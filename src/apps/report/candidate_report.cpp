@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <utility>
 
 namespace fleetmap::apps {
@@ -71,14 +70,11 @@ json candidates_json(const std::vector<PairCandidates>& candidates) {
   return all;
 }
 
-std::vector<PairCandidates> reported_candidates(const std::filesystem::path& report, const AgentId& self) {
+std::vector<PairCandidates> reported_candidates(const json& report, const AgentId& self) {
   std::vector<PairCandidates> all;
-  std::ifstream file(report);
-  if (!file) return all;
-  const json read = json::parse(file, nullptr, false);
-  if (!read.is_object()) return all;
-  add_reported(read, self, all);
-  if (const auto agents = read.find("agents"); agents != read.end() && agents->is_object()) {
+  if (!report.is_object()) return all;
+  add_reported(report, self, all);
+  if (const auto agents = report.find("agents"); agents != report.end() && agents->is_object()) {
     for (const auto& [name, agent] : agents->items()) {
       if (const auto by = AgentId::parse(name)) add_reported(agent, *by, all);
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -15,9 +14,8 @@ std::vector<monitor::PairCandidates> candidates_of(const agent::Agent& agent);
 /// The same for report.json, by the other robot.
 nlohmann::json candidates_json(const std::vector<monitor::PairCandidates>& candidates);
 
-/// Those in a report.json of `run` or of the agent `self`, as they were when the robots ended. Empty where
-/// there is none, or where it is of an older program.
-std::vector<monitor::PairCandidates> reported_candidates(const std::filesystem::path& report,
-                                                         const AgentId& self);
+/// Those in a report of `run` or of the agent `self`, as they were when the robots ended. Empty where it is
+/// of an older program or is none.
+std::vector<monitor::PairCandidates> reported_candidates(const nlohmann::json& report, const AgentId& self);
 
 }  // namespace fleetmap::apps

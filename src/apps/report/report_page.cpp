@@ -8,6 +8,7 @@
 #include "fleetmap/core/text_list.hpp"
 #include "fleetmap/core/utc.hpp"
 #include "fleetmap/eval/plot.hpp"
+#include "radio_use.hpp"
 #include "report_warnings.hpp"
 
 namespace fleetmap::apps {
@@ -169,33 +170,6 @@ void show_sensors(const ReportFacts& facts, eval::HtmlPage& page) {
                     verdict});
   }
   page.table(rows);
-}
-
-/// The kind of message of a topic: "fleetmap/node/r1" -> "node".
-std::string kind_of(const std::string& topic) {
-  constexpr std::string_view kOurs = "fleetmap/";
-  const std::string kind = topic.starts_with(kOurs) ? topic.substr(kOurs.size()) : topic;
-  return kind.substr(0, kind.find('/'));
-}
-
-struct RadioUse {
-  std::uint64_t messages = 0, bytes = 0;
-};
-using RadioUses = std::map<std::pair<std::string, std::string>, RadioUse>;  // by link and kind
-
-RadioUses radio_uses(const json& report) {
-  RadioUses uses;
-  for (const json& row : report.value("links", json::array())) {
-    RadioUse& use = uses[{row.value("link", ""), kind_of(row.value("topic", ""))}];
-    use.messages += row.value("messages", std::uint64_t{0});
-    use.bytes += row.value("wire_bytes", std::uint64_t{0});
-  }
-  for (const json& row : report.value("topics", json::array())) {
-    RadioUse& use = uses[{row.value("link", ""), row.value("kind", "")}];
-    use.messages += row.value("sent_messages", std::uint64_t{0});
-    use.bytes += row.value("sent_bytes", std::uint64_t{0});
-  }
-  return uses;
 }
 
 void show_radio(const ReportFacts& facts, eval::HtmlPage& page) {

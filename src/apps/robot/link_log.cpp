@@ -4,11 +4,11 @@
 #include <spdlog/spdlog.h>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/output/link_trace.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
-constexpr const char* kTraceHeader = "time_s,link,from,to,kbit_s,ms,loss_percent,used_kbit_s,messages";
 constexpr const char* kNodesHeader = "time_ns,node";
 /// On the radio a robot sends a Hello at least every 20 s, on the Wi-Fi a message each second.
 constexpr Duration kSilenceFar = std::chrono::seconds(65), kSilenceNear = std::chrono::seconds(5);
@@ -23,7 +23,7 @@ Result<LinkLog> LinkLog::open(const std::filesystem::path& directory, const Agen
   const auto open_file = [&](const char* name, const char* header) {
     return output::LineFile::open(directory / name, std::ios::app, {output::kMaxTableBytes, header});
   };
-  auto trace = open_file("link_trace.csv", kTraceHeader);
+  auto trace = open_file(output::kLinkTraceFile, output::kLinkTraceHeader);
   if (!trace) return tl::unexpected(trace.error());
   auto nodes = open_file("node_times.csv", kNodesHeader);
   if (!nodes) return tl::unexpected(nodes.error());
@@ -50,11 +50,13 @@ void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& received,
 void LinkLog::add_row(const bus::HeardTraffic& traffic, std::uint64_t lost, Stamp from, Stamp to, bool full) {
   const double kbit_s = 8e-3 * static_cast<double>(traffic.bytes) / to_seconds(to - from);
   const double share = static_cast<double>(lost) / static_cast<double>(lost + traffic.messages);
-  report(trace_.add(
-      fmt::format("{:.1f},{},{},{},{},{},{:.1f},{:.1f},{}", to_seconds(from), bus::to_string(traffic.link),
-                  traffic.from.str(), self_.str(), full ? fmt::format("{:.1f}", kbit_s) : "",
-                  traffic.timed > 0 ? fmt::format("{:.1f}", 1e3 * to_seconds(traffic.delay)) : "",
-                  100.0 * share, kbit_s, traffic.messages)));
+  output::LinkTraceRow row{from, bus::to_string(traffic.link), traffic.from, self_};
+  if (full) row.capacity_kbit_s = kbit_s;
+  if (traffic.timed > 0) row.delay_ms = 1e3 * to_seconds(traffic.delay);
+  row.loss_percent = 100.0 * share;
+  row.used_kbit_s = kbit_s;
+  row.messages = traffic.messages;
+  report(trace_.add(to_line(row)));
 }
 
 /// The row is of the time after the robot was last heard.
@@ -63,8 +65,9 @@ void LinkLog::add_silent(Stamp now) {
     const Duration patience = source.first == bus::Link::kShortRange ? kSilenceNear : kSilenceFar;
     if (heard.silent || now - heard.at < patience) continue;
     heard.silent = true;
-    report(trace_.add(fmt::format("{:.1f},{},{},{},,,100.0,0.0,0", to_seconds(heard.at),
-                                  bus::to_string(source.first), source.second.str(), self_.str())));
+    output::LinkTraceRow row{heard.at, bus::to_string(source.first), source.second, self_};
+    row.loss_percent = 100.0;
+    report(trace_.add(to_line(row)));
   }
 }
 

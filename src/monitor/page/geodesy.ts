@@ -1,4 +1,4 @@
-// WGS84: from the site's ENU frame to latitude, longitude and altitude, as GeographicLib's LocalCartesian does.
+// WGS84: between the site's ENU frame and latitude, longitude and altitude, as GeographicLib's LocalCartesian does.
 
 const kA = 6378137.0;
 const kF = 1 / 298.257223563;
@@ -32,6 +32,32 @@ export function toGeo(origin: Geo, [e, n, u]: readonly number[]): Geo {
     lat = Math.atan2(z, p * (1 - (kE2 * N) / (N + h)));
   }
   return {latitude_deg: (lat * 180) / Math.PI, longitude_deg: (Math.atan2(y, x) * 180) / Math.PI, altitude_m: h};
+}
+
+/** From the middle of the Earth. */
+function toEcef({latitude_deg, longitude_deg, altitude_m}: Geo): [number, number, number] {
+  const lat = (latitude_deg * Math.PI) / 180,
+    lon = (longitude_deg * Math.PI) / 180,
+    s = Math.sin(lat),
+    N = kA / Math.sqrt(1 - kE2 * s * s);
+  const across = (N + altitude_m) * Math.cos(lat);
+  return [across * Math.cos(lon), across * Math.sin(lon), (N * (1 - kE2) + altitude_m) * s];
+}
+
+/** The inverse of toGeo(). */
+export function toEnu(origin: Geo, geo: Geo): [number, number, number] {
+  const [x, y, z] = toEcef(geo),
+    [x0, y0, z0] = toEcef(origin);
+  const [dx, dy, dz] = [x - x0, y - y0, z - z0];
+  const lat0 = (origin.latitude_deg * Math.PI) / 180,
+    lon0 = (origin.longitude_deg * Math.PI) / 180;
+  const east = -Math.sin(lon0) * dx + Math.cos(lon0) * dy,
+    outwards = Math.cos(lon0) * dx + Math.sin(lon0) * dy; // in the plane of the equator
+  return [
+    east,
+    -Math.sin(lat0) * outwards + Math.cos(lat0) * dz,
+    Math.cos(lat0) * outwards + Math.sin(lat0) * dz,
+  ];
 }
 
 /** Universal Transverse Mercator; outside of 80° S to 84° N there is none. */

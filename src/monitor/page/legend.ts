@@ -59,10 +59,16 @@ export function edgeKeys(kinds: readonly (keyof typeof kEdgeNames)[]): HTMLEleme
  * these hear each other.
  */
 export function linkKeys(self: string): HTMLElement[] {
-  const key = (kind: string, words: string) => el('span', {}, el('i', {class: `key link-${kind}`}), words);
   return [
-    key('good', `heard by ${self}, whose links alone are drawn`),
-    key('poor', 'loses a fifth, or late'),
-    key('silent', 'lost'),
+    linkKey('good', `heard by ${self}, whose links alone are drawn`),
+    linkKey('poor', 'loses a fifth, or late'),
+    linkKey('silent', 'lost'),
   ];
 }
+
+/** The same, as the robots of a run logged them. */
+export function pastLinkKeys(): HTMLElement[] {
+  return [linkKey('good', 'heard at the time of the slider'), linkKey('poor', 'lost a fifth')];
+}
+
+const linkKey = (kind: string, words: string) => el('span', {}, el('i', {class: `key link-${kind}`}), words);

@@ -3,7 +3,7 @@ import {RobotColours} from './colours';
 import {actOnKey} from './keys';
 import {follow} from './live';
 import type {Hit} from './hit';
-import {edgeKeys, linkKeys, type Picture, rampEnds, rampKey, scaleLength} from './legend';
+import {edgeKeys, linkKeys, pastLinkKeys, type Picture, rampEnds, rampKey, scaleLength} from './legend';
 import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {edgeOfRegistration} from './edges';
@@ -19,6 +19,7 @@ import {Selection} from './selection';
 import {FleetPanel} from './fleet_panel';
 import {WhyPanel} from './why_panel';
 import {RadioPanel} from './radio';
+import {RadioHistoryPanel} from './radio_history';
 import {joinTabs} from './tabs';
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -47,7 +48,7 @@ const actions = {
 const why = new WhyPanel(byId('why'), actions);
 const now = new FleetNow();
 const fleet = new FleetPanel(byId('fleet'), actions, now.root);
-const radio = new RadioPanel(byId('radio'));
+let radio: RadioPanel | RadioHistoryPanel | undefined; // of a running robot, or of a run
 
 // The state.
 
@@ -73,6 +74,11 @@ function showState(next: State): void {
   setTime();
   why.show(next);
   fleet.show(next);
+  if (next.radio && !shownBy) {
+    radio = radio instanceof RadioHistoryPanel ? radio : new RadioHistoryPanel(byId('radio'));
+    radio.show(next.radio, next.robots);
+    byId('tab-radio').hidden = false;
+  }
 }
 
 follow({
@@ -86,6 +92,7 @@ follow({
     why.showNow(live);
     marks?.showLive(live);
     shownBy = live.self;
+    radio = radio instanceof RadioPanel ? radio : new RadioPanel(byId('radio'));
     radio.show(live);
   },
   onConnection(trouble) {
@@ -238,7 +245,7 @@ function showLegend(picture: Picture): void {
     ),
   );
   const ramp = rampKey(picture, colour);
-  const links = shownBy ? linkKeys(shownBy) : [];
+  const links = shownBy ? linkKeys(shownBy) : state.radio?.begin_s === undefined ? [] : pastLinkKeys();
   byId('legend').replaceChildren(...robots, ...edgeKeys(kinds), ...links, ...(ramp ? [ramp] : []));
 }
 
@@ -304,7 +311,7 @@ function stepNode(by: 1 | -1): void {
 
 const redraw = () => {
   fleet.redraw();
-  radio.redraw();
+  radio?.redraw();
 };
 joinTabs([byId('tab-why'), byId('tab-fleet'), byId('tab-radio')], redraw);
 

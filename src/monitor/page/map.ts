@@ -17,6 +17,7 @@ import {Lines, stepsOf} from './lines';
 
 export type Layer = 'points' | 'paths' | 'nodes' | 'used' | 'unused' | 'rejected';
 
+const kGrowth = 1.3; // of the view, for a fleet that has left it
 const kSigmas_m: [number, number] = [0, 0.5]; // at least on the ramp, so that a centimetre is not its whole span
 
 /** WebGL on the canvas. */
@@ -107,6 +108,7 @@ export class FleetMap {
     this.edges = edgesOf(state);
     this.setLines();
     if (!this.eye.fitted && this.nodes.size > 0) this.fit();
+    else if (this.eye.follows && !this.seesAll()) this.eye.fit(this.places(), kGrowth);
     this.drawArrived();
   }
 
@@ -172,7 +174,19 @@ export class FleetMap {
 
   /** Shows all nodes. */
   fit(): void {
-    this.eye.fit([...this.nodes.values()].map(({p}) => p));
+    this.eye.fit(this.places());
+  }
+
+  private places(): THREE.Vector3[] {
+    return [...this.nodes.values()].map(({p}) => p);
+  }
+
+  private seesAll(): boolean {
+    const {clientWidth, clientHeight} = this.canvas;
+    return this.places().every((p) => {
+      const at = this.project(p);
+      return at && at.x >= 0 && at.x <= clientWidth && at.y >= 0 && at.y <= clientHeight;
+    });
   }
 
   project(p: THREE.Vector3): Place | undefined {

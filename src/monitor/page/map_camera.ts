@@ -5,6 +5,7 @@ const kFov = 50; // degrees
 const kFar = 20_000; // m
 const kNearest = 60; // m, of the picture's height when it goes to a place
 const kBorder = 20; // m
+const kInside = 0.9; // of the picture's half
 const kStep = 0.15; // of the picture's height
 
 type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
@@ -13,6 +14,7 @@ type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
 export class MapCamera {
   planar = false;
   fitted = false; // it has looked at the fleet
+  follows = true; // nobody has moved it since it looked at the fleet
   private perspective = new THREE.PerspectiveCamera(kFov, 1, 0.5, kFar);
   private plan = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.5, kFar);
   private controls: {perspective: MapControls; plan: MapControls};
@@ -36,6 +38,7 @@ export class MapCamera {
     controls.zoomToCursor = true;
     controls.enableDamping = false;
     controls.addEventListener('change', () => this.moved());
+    controls.addEventListener('start', () => (this.follows = false));
     return controls;
   }
 
@@ -103,23 +106,42 @@ export class MapCamera {
     this.moved();
   }
 
-  /** Shows all of these places. */
-  fit(places: THREE.Vector3[]): void {
+  /** Shows all of these places, with `room` times what they take, and follows until somebody moves the view. */
+  fit(places: THREE.Vector3[], room = 1): void {
     const box = new THREE.Box3().setFromPoints(places);
     if (box.isEmpty()) return;
-    this.fitted = true;
+    this.fitted = this.follows = true;
     const size = box.getSize(new THREE.Vector3()),
       aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
     const span = Math.max(size.y, size.x / aspect) + kBorder;
-    this.aim(box.getCenter(new THREE.Vector3()), this.planar ? span : 1.2 * span);
+    const middle = box.getCenter(new THREE.Vector3());
+    this.aim(middle, room * (this.planar ? span : this.spanOfAll(middle, span, places)));
+  }
+
+  /** Height of a picture in 3D that has all places: those before the middle look larger than on the plan. */
+  private spanOfAll(middle: THREE.Vector3, span: number, places: THREE.Vector3[]): number {
+    for (let k = 0; k < 5; ++k) {
+      this.aim(middle, span);
+      this.perspective.updateMatrixWorld();
+      const reaches = places.map((p) => {
+        const {x, y, z} = p.clone().project(this.perspective);
+        return z > 1 ? 2 * kInside : Math.max(Math.abs(x), Math.abs(y)); // behind the eye
+      });
+      const reach = reaches.reduce((most, one) => Math.max(most, one), 0);
+      if (reach <= kInside) break;
+      span *= reach / kInside;
+    }
+    return span;
   }
 
   /** Brings a place into the middle, and near enough to see it. */
   goTo(p: THREE.Vector3): void {
+    this.follows = false;
     this.aim(p, Math.min(this.span(), kNearest));
   }
 
   pan(right: number, up: number): void {
+    this.follows = false;
     const step = kStep * this.span();
     const forward = new THREE.Vector3(0, 1, 0);
     if (!this.planar) this.perspective.getWorldDirection(forward).setZ(0).normalize();
@@ -136,6 +158,7 @@ export class MapCamera {
   /** Turns the view around its target, and tilts it, rad; above the plan north stays up. */
   turn(left: number, up: number): void {
     if (this.planar) return;
+    this.follows = false;
     const {target, maxPolarAngle} = this.controls.perspective;
     const away = this.perspective.position.clone().sub(target);
     const angles = new THREE.Spherical().setFromVector3(new THREE.Vector3(away.x, away.z, -away.y)); // y is up there
@@ -148,6 +171,7 @@ export class MapCamera {
   }
 
   zoom(factor: number): void {
+    this.follows = false;
     this.aim(this.target.clone(), this.span() / factor);
   }
 }

@@ -91,6 +91,30 @@ export interface Candidates {
   sentence: string;
 }
 
+/** Messages of robot `from` that robot `to` heard on one link. */
+export interface HeardLink {
+  from: string;
+  to: string;
+  link: LinkName;
+  bytes: number;
+  messages: number;
+  loss: number; // share
+  delay_s: number | null;
+  received: number[]; // B/s, by step
+  loss_in: (number | null)[]; // by step; null: nothing was logged, 1: it fell silent
+}
+
+/** The traffic of a mission, as the robots' files tell of it. */
+export interface RadioHistory {
+  traces: string[]; // robots whose link_trace.csv is there
+  reports: string[]; // robots whose report tells of the kinds
+  begin_s?: number; // of the first step, after the first node; without: of another time than the nodes
+  step_s: number;
+  steps: number;
+  links: HeardLink[];
+  kinds: {link: LinkName; kind: string; sent: number; received: number}[]; // B
+}
+
 export interface State {
   title: string;
   self: string;
@@ -103,6 +127,7 @@ export interface State {
   holdings: Holding[];
   pairs: Pair[];
   candidates: Candidates[]; // of robots that ended
+  radio: RadioHistory | null; // of a run, where files tell of it
   loose_sessions: string[]; // clauses on sessions of a robot that nothing joins
   notes: string[];
   colours: ReadonlyMap<string, string>; // of robots; the page adds them (colours.ts)
@@ -193,6 +218,7 @@ export interface RobotNow {
   heard: {link: LinkName; seconds_ago: number}[];
   battery: number | null;
   sigma_m: number | null;
+  place: [number, number, number, number] | null; // by its EKF: latitude, longitude (deg), altitude (m), heading (rad)
   clock: {sensor: string; behind_s: number} | null; // that is off most, within a factor of 1.4
   nodes: number;
   alignments: number;

@@ -1,6 +1,7 @@
 import {ago, bytes, counted, linkName, type FleetMaps, type Live, type Radio} from './model';
 import {el} from './dom';
 import {patch, setText} from './patch';
+import {radioTable} from './radio_table';
 import {RateChart} from './rate_chart';
 
 /** Traffic of the robot that shows the page, on its radio against the budget and on Wi-Fi, and what waits. */
@@ -16,16 +17,18 @@ export class RadioPanel {
     'Bytes per second sent and received over the long-range radio, and what may be sent; ' +
       'the present numbers are in the first sentence',
     () => this.width(),
+    ['sent', 'received', 'may send'],
   );
   private wifiChart = new RateChart(
     'Bytes per second sent and received over Wi-Fi; the present numbers are in the second sentence',
     () => this.width(),
+    ['sent', 'received'],
   );
   private tables = el('div');
   private begin?: number;
 
   constructor(private root: HTMLElement) {
-    root.append(
+    root.replaceChildren(
       this.headline,
       this.wifi,
       this.access,
@@ -76,7 +79,7 @@ export class RadioPanel {
         `${bytes(one.sent)}/s`,
         `${bytes(one.received)}/s`,
       ]);
-    return table('By kind of message', ['kind', 'link', 'sent', 'received'], rows, 'kinds');
+    return radioTable('By kind of message', ['kind', 'link', 'sent', 'received'], rows, 'kinds');
   }
 
   private peers(radio: Radio): HTMLElement[] {
@@ -87,14 +90,14 @@ export class RadioPanel {
       `${(100 * one.loss).toFixed(1)} %`,
       one.delay_s === null ? '–' : `${(1000 * one.delay_s).toFixed(0)} ms`,
     ]);
-    return table('By robot', ['from', 'link', 'received', 'lost', 'delay'], rows, 'peers');
+    return radioTable('By robot', ['from', 'link', 'received', 'lost', 'delay'], rows, 'peers');
   }
 
   private queues(radio: Radio): HTMLElement[] {
     const rows = radio.queues
       .filter((one) => one.waiting + one.dropped > 0)
       .map((one) => [one.priority, String(one.waiting), String(one.dropped)]);
-    return table('Messages that wait for the radio', ['class', 'waiting', 'dropped so far'], rows, 'queues');
+    return radioTable('Messages that wait for the radio', ['class', 'waiting', 'dropped so far'], rows, 'queues');
   }
 
   private draw(): void {
@@ -156,19 +159,4 @@ function fleetMapsText(maps: FleetMaps): string {
   const when = left === null ? 'none arrived there lately' : `at the present rates it has all in ${ago(left)}`;
   const lacks = `by the robots' own counts it lacks ${counted(maps.missing_submaps, 'submap')}`;
   return `${maps.last} will be the last to have the whole map: ${lacks}; ${when}.${without}`;
-}
-
-function table(title: string, columns: string[], rows: string[][], name: string): HTMLElement[] {
-  const head = el('tr', {}, ...columns.map((column) => el('th', {scope: 'col'}, column)));
-  const body = rows.map((row) =>
-    el('tr', {}, el('th', {scope: 'row'}, row[0]), ...row.slice(1).map((cell) => el('td', {}, cell))),
-  );
-  const content =
-    rows.length > 0
-      ? el('table', {class: 'plain', 'aria-label': title}, el('thead', {}, head), el('tbody', {}, ...body))
-      : el('p', {class: 'hint'}, 'None now.');
-  return [
-    el('h2', {}, title),
-    el('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': title, 'data-of': name}, content),
-  ];
 }

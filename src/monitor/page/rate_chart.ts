@@ -4,16 +4,17 @@ import {el, unbroken} from './dom';
 
 const kSeconds = 300;
 
-/** Bytes per second that a robot sent and received over one link, in the last minutes; with a limit, what it may. */
+/** Bytes per second over one link: of the last minutes as they come, or of a whole mission. */
 export class RateChart {
   readonly root = el('div', {class: 'chart'});
   private plot?: uPlot;
-  private points: number[][] = []; // time, sent, received, limit
+  private points: number[][] = []; // time, and the values of each line
 
-  /** `name` describes it for screen readers. */
+  /** `name` describes it for screen readers; `labels`: the lines. */
   constructor(
     private name: string,
     private width: () => number,
+    private labels: string[],
   ) {}
 
   add(...values: number[]): void {
@@ -21,10 +22,15 @@ export class RateChart {
     while (this.points[0].length > kSeconds) for (const one of this.points) one.shift();
   }
 
+  /** Shows these instead of what came before. */
+  replace(points: number[][]): void {
+    this.points = points;
+  }
+
   redraw(): void {
     this.plot?.destroy();
     this.plot = undefined;
-    if (this.points.length > 0) this.draw();
+    if (this.points[0]?.length) this.draw();
   }
 
   resize(): void {
@@ -50,11 +56,8 @@ export class RateChart {
       points: {show: false},
       value: (_: uPlot, v: number | null) => (v === null ? '' : unbroken(`${bytes(v)}/s`)),
     });
-    const lines = [
-      line('sent', '#2f7de1'),
-      line('received', '#1fa774'),
-      line('may send', colour('--soft'), [6, 4]),
-    ].slice(0, points.length - 1);
+    const looks: [string, number[]?][] = [['#2f7de1'], ['#1fa774'], [colour('--soft'), [6, 4]]];
+    const lines = this.labels.map((label, k) => line(label, ...looks[k]));
     this.plot = new uPlot(
       {
         width: this.width(),

@@ -1,9 +1,11 @@
 import * as THREE from 'three';
 import {shape} from './dom';
-import {linksOf} from './links';
+import {type Geo, toEnu} from './geodesy';
+import {linksAt, linksOf, type RobotLink} from './links';
 import type {FleetMap} from './map';
-import {colourOf, type FleetNode, isNumber, type Live, type State} from './model';
+import {colourOf, type FleetNode, isNumber, type Live, type RadioHistory, type State} from './model';
 import type {Place} from './picking';
+import {matrixOf} from './submap';
 
 const kLabel_px = 62; // half of the longest label
 const kLine_px = 15;
@@ -15,17 +17,23 @@ interface Mark {
   colour: string;
   p: THREE.Vector3;
   ahead: THREE.Vector3; // a place in front of it
-  ellipse: THREE.Vector3[]; // where it is with 95 %; empty: not known
+  ellipse: THREE.Vector3[]; // where it is with 95 %, around p; empty: not known
+  T_map_enu?: THREE.Matrix4; // what alignments corrected at its last node, which holds for its EKF, too
 }
 
-/** Each robot's last place on the map with its heading and name, and the links of the one that shows the page. */
+/**
+ * Each robot's place on the map with its heading and name: at its last node, or where its last status has it. Links: of
+ * a running robot that shows the page its own at present, of a run the logged ones of all robots at the time shown.
+ */
 export class RobotMarks {
   shown = true;
   private marks: Mark[] = [];
+  private origin?: Geo; // of ENU
   private live?: Live;
+  private history?: RadioHistory;
   private heardAt = 0;
   private drawn = '';
-  private now = true; // the marks are of the present, not of an earlier time of the mission
+  private until = Infinity; // s; Infinity: the marks are of the present, or of the mission's end
 
   constructor(
     private map: FleetMap,
@@ -34,7 +42,9 @@ export class RobotMarks {
 
   /** Each robot at its last node until `until`, s. */
   show(state: State, until: number): void {
-    this.now = until === Infinity;
+    this.until = until;
+    this.origin = state.origin;
+    this.history = state.radio ?? undefined;
     const last = new Map<string, FleetNode>();
     for (const node of state.nodes)
       if (node.T?.every(isNumber) && node.t <= until && node.t >= (last.get(node.robot)?.t ?? -Infinity))
@@ -54,7 +64,8 @@ export class RobotMarks {
         colour: colourOf(state, robot),
         p,
         ahead: ahead.add(p),
-        ellipse: covariance ? ellipseOf(covariance).map(([dx, dy]) => new THREE.Vector3(x + dx, y + dy, z)) : [],
+        ellipse: covariance ? ellipseOf(covariance).map(([dx, dy]) => new THREE.Vector3(dx, dy, 0)) : [],
+        T_map_enu: node.gps?.every(isNumber) ? matrixOf(node.T!).multiply(matrixOf(node.gps).invert()) : undefined,
       };
     });
     this.draw();
@@ -69,31 +80,49 @@ export class RobotMarks {
   /** After each picture of the map. */
   draw(): void {
     if (!this.shown) return this.replace([]);
-    const places = new Map(this.marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
-    const links = this.now && this.live ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
+    const marks = this.marks.map((mark) => this.atPresent(mark));
+    const places = new Map(marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
+    const links = this.links();
     const lines: SVGElement[] = [],
       words: SVGElement[] = [],
-      taken: Box[] = [];
+      taken: Box[] = [],
+      names = new Map<string, Box>();
     for (const [robot, place] of places)
-      if (place) taken.push(boxOf(robot, place.x + 12 + 3.5 * robot.length, place.y - 10));
-    const self = places.get(this.live?.self ?? '');
-    for (const {robot, quality, text} of links) {
-      const other = places.get(robot);
-      if (!self || !other) continue;
-      const line = {x1: self.x, y1: self.y, x2: other.x, y2: other.y};
+      if (place) names.set(robot, freeBox(boxOf(robot, place.x + 12 + 3.5 * robot.length, place.y - 10), taken));
+    for (const {from, to, quality, text} of links) {
+      const one = places.get(from),
+        other = places.get(to);
+      if (!one || !other) continue;
+      const line = {x1: one.x, y1: one.y, x2: other.x, y2: other.y};
       lines.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
-      const box = boxOf(text, this.within((self.x + other.x) / 2), (self.y + other.y) / 2 - 5);
-      if (Math.hypot(other.x - self.x, other.y - self.y) < kLabel_px || taken.some((one) => overlap(one, box)))
+      const box = boxOf(text, this.within((one.x + other.x) / 2), (one.y + other.y) / 2 - 5);
+      if (Math.hypot(other.x - one.x, other.y - one.y) < kLabel_px || taken.some((there) => overlap(there, box)))
         continue;
       taken.push(box);
       words.push(label(text, box.x, box.y, 'link'));
     }
-    const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.robot));
-    const robots = this.marks.flatMap((mark) => {
+    const silent = new Set(links.filter((one) => one.quality === 'silent').map((one) => one.to));
+    const robots = marks.flatMap((mark) => {
       const place = places.get(mark.robot);
-      return place ? this.markOf(mark, place, silent.has(mark.robot)) : [];
+      return place ? this.markOf(mark, place, names.get(mark.robot)!.y, silent.has(mark.robot)) : [];
     });
     this.replace([...lines, ...words, ...robots]);
+  }
+
+  /** Moved to where the robot's last status has it, while the present is shown. */
+  private atPresent(mark: Mark): Mark {
+    const place = this.until === Infinity && this.live?.robots.find(({id}) => id === mark.robot)?.place;
+    if (!place || !mark.T_map_enu || !this.origin) return mark;
+    const [latitude_deg, longitude_deg, altitude_m, heading] = place;
+    const enu = new THREE.Vector3(...toEnu(this.origin, {latitude_deg, longitude_deg, altitude_m}));
+    const p = enu.clone().applyMatrix4(mark.T_map_enu).setZ(mark.p.z); // the height of an EKF's place is its worst
+    const ahead = enu.add(new THREE.Vector3(Math.cos(heading), Math.sin(heading), 0)).applyMatrix4(mark.T_map_enu);
+    return {...mark, p, ahead: ahead.setZ(p.z)};
+  }
+
+  private links(): RobotLink[] {
+    if (this.live) return this.until === Infinity ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
+    return this.history ? linksAt(this.history, this.until) : [];
   }
 
   /** Shapes that are drawn anew over the canvas make the browser compose the whole map again. */
@@ -110,9 +139,10 @@ export class RobotMarks {
     return width > 2 * kLabel_px ? Math.min(width - kLabel_px, Math.max(kLabel_px, x)) : x;
   }
 
-  private markOf({robot, colour, p, ahead, ellipse}: Mark, {x, y}: Place, silent: boolean): SVGElement[] {
+  private markOf(mark: Mark, {x, y}: Place, nameY: number, silent: boolean): SVGElement[] {
+    const {robot, colour, p, ahead, ellipse} = mark;
     const shapes: SVGElement[] = [];
-    const corners = ellipse.map((corner) => this.map.project(corner));
+    const corners = ellipse.map((corner) => this.map.project(corner.clone().add(p)));
     if (corners.length > 0 && corners.every((one) => one !== undefined)) {
       const points = corners.map((one) => `${one!.x.toFixed(1)},${one!.y.toFixed(1)}`).join(' ');
       shapes.push(shape('polygon', {points, class: 'ellipse', style: `fill:${colour}`}));
@@ -129,7 +159,7 @@ export class RobotMarks {
         'data-mark': robot,
         style: `fill:${fill};stroke:${stroke}`,
       }),
-      label(silent ? `${robot} (lost)` : robot, x + 12, y - 10, 'robot-name'),
+      label(silent ? `${robot} (lost)` : robot, x + 12, nameY, 'robot-name'),
     );
     return shapes;
   }
@@ -158,6 +188,14 @@ interface Box {
 
 const boxOf = (text: string, x: number, y: number): Box => ({x, y, half: 3.5 * text.length});
 const overlap = (a: Box, b: Box) => Math.abs(a.x - b.x) < a.half + b.half && Math.abs(a.y - b.y) < kLine_px;
+
+/** Above the labels that are there already, which it then is, too. */
+function freeBox(box: Box, taken: Box[]): Box {
+  let y = box.y;
+  while (taken.some((one) => overlap(one, {...box, y}))) y -= 1;
+  taken.push({...box, y});
+  return {...box, y};
+}
 
 function label(text: string, x: number, y: number, kind: string): SVGElement {
   return shape('text', {x: x.toFixed(1), y: y.toFixed(1), class: kind}, text);

@@ -18,6 +18,7 @@ export function cutGaps(state: State): number {
     cut.set(t, sum);
   });
   if (sum === 0) return 0;
+  delete state.radio?.begin_s; // its times are not those of the slider then
   for (const node of state.nodes) {
     node.stamp_s = node.t;
     node.t -= cut.get(node.t)!;

@@ -99,6 +99,18 @@ TEST_F(RobotsNow, TheStatusIsTakenOver) {
   EXPECT_EQ(of(kPeer).backlog_bytes, 900u);
 }
 
+TEST_F(RobotsNow, ThePlaceOfAStatusCountsOnceItsPoseIsKnown) {
+  messages::AgentStatus& status = fleet_.statuses[kPeer];
+  status.position = geo_point_from_degrees(39.0, -3.0, 600.0);
+  status.heading = 1.5f;
+  EXPECT_FALSE(of(kPeer).place) << "without a pose the place is zero or old";
+  status.position_stddev = 0.5f;
+  const auto place = of(kPeer).place;
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->position.latitude, status.position.latitude);
+  EXPECT_EQ(place->heading, 1.5);
+}
+
 TEST_F(RobotsNow, TheLinkOnWhichItWasHeardLastComesFirst) {
   fleet_.heard[{bus::Link::kShortRange, kPeer}] = {Stamp{900s}, true};
   fleet_.heard[{bus::Link::kLongRange, kPeer}] = {Stamp{997s}, false};

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "support/robots.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -32,16 +31,11 @@ PairCandidates counted(const AgentId& by, const AgentId& with) {
   return one;
 }
 
-class CandidateReportTest : public ::testing::Test {
- protected:
-  std::vector<PairCandidates> read(const std::string& text) const {
-    folder_.write("report.json", text);
-    return reported_candidates(folder_.path() / "report.json", kSelf);
-  }
-  testing::TemporaryFolder folder_;
-};
+std::vector<PairCandidates> read(const std::string& text) {
+  return reported_candidates(json::parse(text, nullptr, false), kSelf);
+}
 
-TEST_F(CandidateReportTest, ReportsOfOneRobotAndOfARunAreReadAsOfTheirEnd) {
+TEST(CandidateReport, ReportsOfOneRobotAndOfARunAreReadAsOfTheirEnd) {
   PairCandidates ours = counted(kSelf, kPeer), theirs = counted(kPeer, kSelf);
   const json of_one{{"candidates_with", candidates_json({ours})}};
   const json of_run{
@@ -51,8 +45,7 @@ TEST_F(CandidateReportTest, ReportsOfOneRobotAndOfARunAreReadAsOfTheirEnd) {
   EXPECT_THAT(read(of_run.dump()), ::testing::UnorderedElementsAre(ours, theirs));
 }
 
-TEST_F(CandidateReportTest, WhatIsNoSuchReportHasNone) {
-  EXPECT_THAT(reported_candidates(folder_.path() / "none.json", kSelf), IsEmpty());
+TEST(CandidateReport, WhatIsNoSuchReportHasNone) {
   for (const char* text :
        {"", "[1]", "{\"agents\": 3}", "{\"agents\": {\"r2\": 1}}", "{\"candidates_with\": [1]}",
         "{\"candidates_with\": {\"no name\": {}, \"r2\": 5}}",

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {pageModule} from './page_module.mjs';
 
-const {toGeo, toUtm} = await pageModule(process.argv[2], 'geodesy');
+const {toEnu, toGeo, toUtm} = await pageModule(process.argv[2], 'geodesy');
 
 const near = (value, expected, tolerance, what) =>
   assert.ok(Math.abs(value - expected) <= tolerance, `${what}: ${value}, expected ${expected}`);
@@ -19,6 +19,11 @@ for (const line of lines) {
   near(geo.latitude_deg, lat, 1e-10, line);
   near(geo.longitude_deg, lon, 1e-9, line);
   near(geo.altitude_m, h, 1e-6, line);
+  const enu = toEnu(
+    {latitude_deg: lat0, longitude_deg: lon0, altitude_m: h0},
+    {latitude_deg: lat, longitude_deg: lon, altitude_m: h},
+  );
+  [e, n, u].forEach((value, k) => near(enu[k], value, 1e-4, line));
   const utm = toUtm({latitude_deg: lat, longitude_deg: lon, altitude_m: h});
   if (zone === 0) {
     assert.equal(utm, null, line);

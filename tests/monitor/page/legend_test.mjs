@@ -4,7 +4,7 @@ import {openPage, textOf} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
 
 await openPage(process.argv[2]);
-const {edgeKeys, linkKeys, rampEnds, rampKey, scaleLength} = await pageModule(process.argv[2], 'legend');
+const {edgeKeys, linkKeys, pastLinkKeys, rampEnds, rampKey, scaleLength} = await pageModule(process.argv[2], 'legend');
 
 // A round number that takes 44 to 110 pixels, whatever the zoom.
 for (let metresPerPixel = 1e-3; metresPerPixel < 100; metresPerPixel *= 1.07) {
@@ -32,3 +32,4 @@ assert.deepEqual(edges.map(textOf), ['alignment in use', 'rejected registration'
 assert.ok(edges[1].querySelector('.key.rejected'));
 const links = ['heard by r1, whose links alone are drawn', 'loses a fifth, or late', 'lost'];
 assert.deepEqual(linkKeys('r1').map(textOf), links);
+assert.deepEqual(pastLinkKeys().map(textOf), ['heard at the time of the slider', 'lost a fifth']);

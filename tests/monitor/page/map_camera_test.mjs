@@ -76,6 +76,48 @@ for (const planar of [true, false]) {
   assert.ok(Math.abs(400 * eye.metresPerPixel() - 15) < 1e-3);
 }
 
+// A fleet that is as deep as it is wide, of which the near side looks larger, is in the picture as a whole.
+const deep = made();
+const square = [
+  [0, 0],
+  [200, 0],
+  [0, 200],
+  [200, 200],
+].map(([x, y]) => new Vector3(x, y, 5));
+for (const turned of [0, 0.4, 1.2]) {
+  deep.turn(turned, 0);
+  deep.fit(square);
+  const seen = square.map((p) => pixel(deep, p));
+  assert.ok(
+    seen.every(([x, y]) => x > 0 && x < 800 && y > 0 && y < 400),
+    String(seen),
+  );
+  const rows = seen.map(([, y]) => y);
+  assert.ok(Math.max(...rows) - Math.min(...rows) > 150, `fills too little of the picture: ${rows}`);
+}
+
+// The view follows the fleet until somebody moves it; a look at the whole fleet begins anew.
+const follower = made();
+follower.fit(corners);
+const tight = follower.metresPerPixel();
+assert.ok(follower.follows);
+follower.fit(corners, 1.5);
+assert.ok(follower.follows && follower.metresPerPixel() > 1.3 * tight, 'with room');
+follower.setPlanar(true);
+assert.ok(follower.follows, 'a plan of the same is no other view');
+follower.setPlanar(false);
+for (const move of [
+  () => follower.pan(1, 0),
+  () => follower.zoom(2),
+  () => follower.turn(1, 0),
+  () => follower.goTo(corners[0]),
+]) {
+  move();
+  assert.ok(!follower.follows, String(move));
+  follower.fit(corners);
+  assert.ok(follower.follows);
+}
+
 // Plan and 3D look at the same place at the same scale; north is up on the plan.
 const eye = made();
 eye.fit(corners);

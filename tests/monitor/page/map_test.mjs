@@ -111,6 +111,26 @@ try {
   map.show(fleet());
   assert.equal(map.submaps.all.get(first.submap).floating, undefined);
   await drawAll();
+  // A fleet that drives out of the view is followed until somebody moves the view.
+  const grown = (x) => fleet({nodes: [...fleet().nodes, node('r2', 9, [x, 0, 0], {submap: undefined})]});
+  const visible = (x) => {
+    map.eye.camera.updateMatrixWorld();
+    const at = map.project(new Vector3(x, 0, 0));
+    return at !== undefined && at.x > 0 && at.x < 800 && at.y > 0 && at.y < 400;
+  };
+  const eyeAt = map.eye.camera.position.clone();
+  map.show(grown(11));
+  assert.ok(map.eye.camera.position.equals(eyeAt), 'all is in view');
+  assert.ok(!visible(200));
+  map.show(grown(200));
+  assert.ok(visible(200));
+  map.eye.pan(0, 0);
+  map.show(grown(2000));
+  assert.ok(!visible(2000), 'somebody looks at a part of it');
+  map.show(fleet());
+  map.fit();
+  await drawAll();
+
   // Points have their robot's colour, also where it changes; a theme is a picture.
   const coloursOfBlocks = () => {
     const found = new Set();

@@ -5,7 +5,7 @@ import {pageModule} from './page_module.mjs';
 
 await openPage(process.argv[2]);
 const {RateChart} = await pageModule(process.argv[2], 'rate_chart');
-const chart = new RateChart('bytes', () => 300);
+const chart = new RateChart('bytes', () => 300, ['sent', 'received', 'may send']);
 const drawn = FakePlot.shown.length;
 chart.redraw();
 assert.equal(FakePlot.shown.length, drawn, 'nothing came yet');
@@ -33,11 +33,16 @@ assert.equal(FakePlot.shown.at(-1), plot, 'a plot that is there is brought up to
 chart.redraw();
 assert.ok(plot.destroyed);
 
-// Without a limit there is no line for it.
-const free = new RateChart('bytes', () => 300);
-free.add(0, 1, 2);
+// As many lines as there are names; the whole of a run at once.
+const free = new RateChart('bytes', () => 300, ['heard']);
+free.replace([Array.from({length: 400}, (_, k) => k), Array(400).fill(7)]);
 free.draw();
+const whole = FakePlot.shown.at(-1);
 assert.deepEqual(
-  FakePlot.shown.at(-1).options.series.map((one) => one.label),
-  ['time', 'sent', 'received'],
+  whole.options.series.map((one) => one.label),
+  ['time', 'heard'],
+);
+assert.deepEqual(
+  whole.data.map((values) => values.length),
+  [400, 400],
 );

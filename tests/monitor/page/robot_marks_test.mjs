@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {openPage} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
-import {live, node, robot, robotNow, state} from './states.mjs';
+import {heardLink, live, node, radioHistory, robot, robotNow, state} from './states.mjs';
 
 await openPage(process.argv[2], '<svg id="robots"></svg>');
 const {ellipseOf, RobotMarks} = await pageModule(process.argv[2], 'robot_marks');
@@ -59,6 +59,32 @@ marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: said}), robotNow('r3
 assert.deepEqual([all('line.link').length, all('text.link').length], [2, 1]);
 marks.showLive(live([robotNow('r1'), robotNow('r2', {heard: [{link: 'long_range', seconds_ago: 90}]})]));
 
+// Names of robots at one place are above each other.
+marks.show(state({nodes: [node('r1', 0, [5, 5, 0]), node('r2', 0, [5, 5, 0])]}), Infinity);
+const [lower, upper] = all('text.robot-name').map((one) => Number(one.getAttribute('y')));
+assert.ok(lower - upper >= 15, `${lower} and ${upper}`);
+
+// A running robot is where its last status has it, moved and turned as alignments moved its last node.
+const aligned = state({
+  nodes: [node('r1', 0, [5, 5, 0], {T: [5, 5, 0, 0, 0, north, north], gps: [4, 5, 0, 0, 0, 0, 1]})],
+});
+const origin = aligned.origin;
+marks.show(aligned, Infinity);
+const status = (place) => marks.showLive(live([robotNow('r1', {place})], {}));
+status([origin.latitude_deg, origin.longitude_deg, origin.altitude_m, 0]);
+assert.equal(
+  marksOf('r1').getAttribute('transform'),
+  'translate(100.0 -10.0) rotate(-90.0)',
+  'it is 4 m west and 5 m south of its node by its EKF, which the map has turned by 90 degrees',
+);
+marks.show(aligned, 10);
+assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(-90.0)', 'as it was then');
+marks.show(state({nodes: [node('r1', 0, [5, 5, 0])]}), Infinity);
+assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(0.0)', 'nothing ties it to ENU');
+status(null);
+marks.show(aligned, Infinity);
+assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(-90.0)', 'not known');
+
 // At an earlier time robots are where they were; links are of the present.
 marks.show(fleet, 3);
 assert.deepEqual(labels(), ['r1']);
@@ -81,3 +107,19 @@ const diagonal = ellipseOf([2, 1.9, 2]);
 const furthest = diagonal.reduce((a, b) => (Math.hypot(...b) > Math.hypot(...a) ? b : a));
 assert.ok(Math.abs(furthest[0] - furthest[1]) < 1e-6, 'xx = yy and a positive xy: along the diagonal');
 assert.ok(ellipseOf([0, 0, 0]).every((corner) => Math.hypot(...corner) === 0));
+
+// A run has the links of the time that is shown, between any two robots.
+const run = new RobotMarks(map, overlay);
+const links = [
+  heardLink('r1', 'r2', 'long_range', 10, {loss_in: {0: 0, 5: 1}}),
+  heardLink('r3', 'r2', 'long_range', 10, {loss_in: {6: 0.5}}),
+];
+const logged = {...beside, radio: radioHistory({begin_s: 0, steps: 10, links})};
+const ends = () => all('line.link').map((one) => `${one.getAttribute('class')} ${one.getAttribute('y1')}`);
+run.show(logged, 2);
+assert.deepEqual(ends(), ['link good 0']);
+run.show(logged, Infinity);
+assert.deepEqual(ends(), ['link poor -205']);
+assert.ok(labels().every((one) => !one.includes('lost')));
+run.show(beside, Infinity);
+assert.deepEqual(ends(), []);

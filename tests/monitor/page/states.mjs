@@ -74,6 +74,7 @@ export const state = (more = {}) => ({
   holdings: [],
   pairs: [pair('r1', 'r2', false)],
   candidates: [],
+  radio: null,
   loose_sessions: [],
   notes: [],
   colours: new Map([
@@ -91,6 +92,7 @@ export const robotNow = (id, more = {}) => ({
   heard: [],
   battery: null,
   sigma_m: null,
+  place: null,
   clock: null,
   nodes: 0,
   alignments: 0,
@@ -126,5 +128,29 @@ export const live = (robots, more = {}) => ({
     seconds_to_equal_map: null,
   },
   maps: {last: null, missing_submaps: 0, seconds_to_equal: 0, not_counted: []},
+  ...more,
+});
+
+/** A link of `steps` steps; `loss_in` and `received` name those that are not empty. */
+export const heardLink = (from, to, link, steps, {loss_in = {}, received = {}, ...more} = {}) => ({
+  from,
+  to,
+  link,
+  bytes: 1000,
+  messages: 10,
+  loss: 0.1,
+  delay_s: null,
+  received: Array.from({length: steps}, (_, k) => received[k] ?? 0),
+  loss_in: Array.from({length: steps}, (_, k) => loss_in[k] ?? null),
+  ...more,
+});
+
+export const radioHistory = (more = {}) => ({
+  traces: ['r1', 'r2'],
+  reports: ['r1', 'r2'],
+  step_s: 1,
+  steps: 0,
+  links: [],
+  kinds: [],
   ...more,
 });

@@ -1,7 +1,7 @@
 // Times of the mission without long gaps (src/monitor/page/times.ts).
 import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
-import {node, state} from './states.mjs';
+import {node, radioHistory, state} from './states.mjs';
 
 const {cutGaps, gapNote} = await pageModule(process.argv[2], 'times');
 const of = (...times) => state({nodes: times.map((t, k) => ({...node('r1', k), t}))});
@@ -35,3 +35,13 @@ assert.deepEqual(
   ],
 );
 assert.equal(cutGaps(of()), 0);
+
+// The radio's times are those of the slider only where nothing is left out.
+for (const [times, begin] of [
+  [[0, day], 7],
+  [[0, 2 * day], undefined],
+]) {
+  const run = {...of(...times), radio: radioHistory({begin_s: 7})};
+  cutGaps(run);
+  assert.equal(run.radio.begin_s, begin);
+}
