@@ -16,12 +16,13 @@ json clock_json(const std::optional<ClockNow>& clock) {
   return clock ? json{{"sensor", clock->sensor}, {"behind_s", clock->behind_s}} : json();
 }
 
-/// Latitude and longitude in degrees, altitude in m, heading in rad; 1e-7 degrees are a centimetre.
+/// Latitude and longitude in degrees, altitude in m, heading in rad, stamp in s; 1e-7 degrees are a
+/// centimetre.
 json place_json(const std::optional<PlaceNow>& place) {
   if (!place) return {};
   const GeoPoint& at = place->position;
   return {rounded(at.latitude / kDegree, 1e8), rounded(at.longitude / kDegree, 1e8),
-          rounded(at.altitude, 1e2), rounded(place->heading, 1e3)};
+          rounded(at.altitude, 1e2), rounded(place->heading, 1e3), rounded(to_seconds(place->stamp), 1e2)};
 }
 
 json past_json(const std::vector<PastProblem>& past) {

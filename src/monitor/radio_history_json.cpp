@@ -13,7 +13,7 @@ json links_json(const std::vector<HeardLink>& all) {
   for (const HeardLink& link : all) {
     json received = json::array(), loss = json::array();
     for (const double rate : link.received) received.push_back(rounded(rate, 1.0));
-    for (const std::optional<double>& share : link.loss_in) loss.push_back(optional_json(share, 100.0));
+    for (const std::optional<double>& share : link.loss_in) loss.push_back(optional_json(share, 1e3));
     links.push_back({{"from", link.from.str()},
                      {"to", link.to.str()},
                      {"link", link.link},

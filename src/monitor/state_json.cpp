@@ -265,6 +265,7 @@ std::string state_json(const FleetView& view) {
   const Outcomes outcomes = outcomes_of(view);
   const json state{{"title", view.title},
                    {"self", view.self.str()},
+                   {"begin_s", rounded(to_seconds(begin_of(view)), 1e3)},
                    {"origin",
                     {{"latitude_deg", view.origin.latitude * kDegrees},
                      {"longitude_deg", view.origin.longitude * kDegrees},

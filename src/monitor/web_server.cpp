@@ -1,11 +1,14 @@
 #include "web_server.hpp"
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <list>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -23,24 +26,21 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 using Parser = http::request_parser<http::empty_body>;
 
+class Connection;
+
 /// Shared by the connections of one server.
 struct Shared {
   const ServerConfig& config;
   ServerCounters& counters;
   WebServer::Answer answer;
+  std::list<std::weak_ptr<Connection>> connections = {};  ///< of HTTP, the oldest first
 };
 
-/// Counts a connection as long as it exists, however it ends.
-class CountedConnection {
- public:
-  explicit CountedConnection(ServerCounters& counters) : counters_(&counters) { ++counters_->connections; }
-  ~CountedConnection() { --counters_->connections; }
-  CountedConnection(const CountedConnection&) = delete;
-  CountedConnection& operator=(const CountedConnection&) = delete;
-
- private:
-  ServerCounters* counters_;
-};
+/// Counts a connection until the last one who holds this ends, however that is.
+std::shared_ptr<void> count_connection(ServerCounters& counters) {
+  ++counters.connections;
+  return {&counters, [](ServerCounters* all) { --all->connections; }};
+}
 
 void set_limits(Parser& parser) {
   parser.header_limit(WebServer::kMaxHeaderBytes);
@@ -48,19 +48,15 @@ void set_limits(Parser& parser) {
 }
 
 HttpRequest::Method method_of(http::verb verb) {
-  switch (verb) {
-    case http::verb::get:
-      return HttpRequest::Method::get;
-    case http::verb::head:
-      return HttpRequest::Method::head;
-    case http::verb::post:
-      return HttpRequest::Method::post;
-    default:
-      return HttpRequest::Method::other;
-  }
+  using enum HttpRequest::Method;
+  if (verb == http::verb::get) return get;
+  if (verb == http::verb::head) return head;
+  return verb == http::verb::post ? post : other;
 }
 
-HttpRequest plain(const Request& request) {
+/// Empty if it names two hosts: it is for either of them, and a check of one would pass the other.
+std::optional<HttpRequest> plain(const Request& request) {
+  if (request.count(http::field::host) > 1) return std::nullopt;
   const auto header = [&](http::field name) {
     const auto value = request[name];
     return std::string(value.data(), value.size());
@@ -90,7 +86,7 @@ Response failed(http::status status, const char* text) {
 /// The WebSocket of one session, which it owns.
 class OpenWebSocket : public WebSocket, public std::enable_shared_from_this<OpenWebSocket> {
  public:
-  OpenWebSocket(Shared& shared, beast::tcp_stream stream, std::shared_ptr<CountedConnection> counted,
+  OpenWebSocket(Shared& shared, beast::tcp_stream stream, std::shared_ptr<void> counted,
                 std::unique_ptr<WebSocketSession> session)
       : shared_(shared),
         counted_(std::move(counted)),
@@ -147,7 +143,7 @@ class OpenWebSocket : public WebSocket, public std::enable_shared_from_this<Open
   }
 
   Shared& shared_;
-  std::shared_ptr<CountedConnection> counted_;
+  std::shared_ptr<void> counted_;
   websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer buffer_;
   bool cut_ = false;
@@ -158,25 +154,30 @@ class OpenWebSocket : public WebSocket, public std::enable_shared_from_this<Open
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Shared& shared, tcp::socket socket)
-      : shared_(shared),
-        counted_(std::make_shared<CountedConnection>(shared.counters)),
-        stream_(std::move(socket)) {}
+      : shared_(shared), counted_(count_connection(shared.counters)), stream_(std::move(socket)) {}
 
   /// Reads the next request and answers it.
   void read() {
+    reads_ = true;
     set_limits(parser_.emplace());
     stream_.expires_after(shared_.config.request_timeout);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code error, std::size_t) { self->on_request(error); });
   }
 
+  /// Ends it if it waits for a request; false: it does not.
+  bool give_way() {
+    if (!reads_) return false;
+    stream_.close();
+    return std::exchange(reads_, false);
+  }
+
  private:
   void on_request(error_code error) {
+    reads_ = false;
+    if (error == net::error::operation_aborted) return;  // it gave way
     if (error == http::error::end_of_stream) return close();
-    if (error == beast::error::timeout) {
-      if (parser_->got_some()) ++shared_.counters.cut;
-      return;
-    }
+    if (error == beast::error::timeout) return void(shared_.counters.cut += parser_->got_some());
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
       ++shared_.counters.cut;
       return write(failed(http::status::request_header_fields_too_large, "the request's header is too long"));
@@ -188,7 +189,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
     }
     ++shared_.counters.requests;
     const Request request = parser_->release();
-    HttpResponse answered = shared_.answer(plain(request));
+    const std::optional<HttpRequest> asked = plain(request);
+    if (!asked) {
+      ++shared_.counters.refused;
+      return write(failed(http::status::bad_request, "the request names more than one host"));
+    }
+    HttpResponse answered = shared_.answer(*asked);
     if (answered.session) return open(request, std::move(answered));
     write(response_to(request, std::move(answered)));
   }
@@ -231,12 +237,25 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   Shared& shared_;
-  std::shared_ptr<CountedConnection> counted_;
+  std::shared_ptr<void> counted_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{2 * WebServer::kMaxHeaderBytes};
   std::optional<Parser> parser_;
   Response response_;
+  bool reads_ = false;  ///< waits for a request
 };
+
+/// Whether one more connection may be. Where there are too many, the one that has waited for a request for
+/// longest gives way, so that who opens many and says nothing keeps nobody out.
+bool has_room(Shared& shared) {
+  std::erase_if(shared.connections, [](const auto& one) { return one.expired(); });
+  if (shared.counters.connections < shared.config.max_connections) return true;
+  ++shared.counters.cut;
+  return std::ranges::any_of(shared.connections, [](const auto& one) {
+    const auto connection = one.lock();
+    return connection && connection->give_way();
+  });
+}
 
 }  // namespace
 
@@ -271,11 +290,11 @@ void WebServer::Impl::accept() {
       pause.expires_after(std::chrono::milliseconds(200));
       return pause.async_wait([this](error_code) { accept(); });
     }
-    if (shared.counters.connections < shared.config.max_connections) {
-      std::make_shared<Connection>(shared, std::move(socket))->read();
-    } else {
-      ++shared.counters.cut;  // and the socket closes
-    }
+    if (has_room(shared)) {
+      const auto connection = std::make_shared<Connection>(shared, std::move(socket));
+      shared.connections.push_back(connection);
+      connection->read();
+    }  // else the socket closes
     accept();
   });
 }

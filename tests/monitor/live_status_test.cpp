@@ -32,7 +32,8 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
   robot.driven = robot.ordered_to_hold = true;
   robot.rows = {7, 9};
   robot.clock = {"gps", -2.048};
-  robot.place = {geo_point_from_degrees(39.0, -3.25, 600.123), 1.5};
+  robot.place = {geo_point_from_degrees(39.0, -3.25, 600.123), 1.5,
+                 Stamp{std::chrono::milliseconds(1234560)}};
   status.robots = {robot};
   const json live = written(status);
   EXPECT_EQ(live["self"], "r1");
@@ -52,7 +53,7 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
   EXPECT_EQ(one["ordered_to_hold"], true);
   EXPECT_EQ(one["called_home"], false);
   EXPECT_EQ(one["rows"], json({7, 9}));
-  EXPECT_EQ(one["place"].dump(), "[39.0,-3.25,600.12,1.5]");
+  EXPECT_EQ(one["place"].dump(), "[39.0,-3.25,600.12,1.5,1234.56]");
   EXPECT_EQ(one["clock"], json({{"sensor", "gps"}, {"behind_s", -2.048}}));
 }
 

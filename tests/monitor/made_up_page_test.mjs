@@ -166,7 +166,7 @@ async function radioOfARun(page) {
   await drawn(1);
   assert.equal(await page.locator('#robots line.link.good').count(), 1);
   await page.waitForFunction(() =>
-    /heard at the time of the slider/.test(document.getElementById('legend').textContent),
+    /heard then/.test(document.getElementById('legend').textContent),
   );
   await slideTo(0.1);
   await drawn(0);

@@ -37,7 +37,7 @@ TEST(RadioHistoryJson, HasLinksByStepAndKinds) {
   EXPECT_EQ(link["loss"], 0.1235);
   EXPECT_TRUE(link["delay_s"].is_null());
   EXPECT_EQ(link["received"].dump(), "[100.0,0.0,200.0]");
-  EXPECT_EQ(link["loss_in"].dump(), "[0.13,null,1.0]");
+  EXPECT_EQ(link["loss_in"].dump(), "[0.126,null,1.0]");
   EXPECT_EQ(json["kinds"].dump(), R"([{"kind":"node","link":"long_range","received":20,"sent":10}])");
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <list>
 #include <stdexcept>
 #include <thread>
 
@@ -131,6 +132,38 @@ TEST_F(WebServerTest, malformed_requests_are_refused_and_end_the_connection) {
   EXPECT_EQ(counters_.requests, 0u);
 }
 
+TEST_F(WebServerTest, a_request_for_two_hosts_is_refused) {
+  start();
+  Browser browser(server_->port());
+  browser.get("/", "Host: elsewhere.example\r\n");
+  EXPECT_THAT(browser.answer(), StartsWith("HTTP/1.1 400"));
+  EXPECT_TRUE(browser.closed());
+  EXPECT_EQ(counters_.refused, 1u);
+}
+
+TEST_F(WebServerTest, who_opens_many_and_says_nothing_keeps_nobody_out) {
+  ServerConfig config;
+  config.max_connections = 3;
+  start(config);
+  std::list<Browser> idle;
+  for (int k = 0; k < 9; ++k) idle.emplace_back(server_->port());
+  Browser viewer(server_->port());
+  viewer.get("/");
+  EXPECT_EQ(viewer.status(), "200");
+  EXPECT_TRUE(idle.front().closed());
+}
+
+TEST_F(WebServerTest, where_all_are_at_work_a_further_one_is_closed) {
+  ServerConfig config;
+  config.max_connections = 1;
+  start(config);
+  Browser viewer(server_->port());
+  viewer.upgrade();
+  ASSERT_EQ(viewer.status(), "101");
+  EXPECT_TRUE(Browser(server_->port()).closed());
+  EXPECT_EQ(counters_.cut, 1u);
+}
+
 TEST_F(WebServerTest, a_header_that_never_ends_is_cut) {
   start();
   Browser browser(server_->port());
@@ -254,8 +287,8 @@ TEST(ParseRequest, keeps_the_headers_that_decide_about_an_answer) {
   EXPECT_FALSE(request->upgrade) << "only a GET is upgraded";
   EXPECT_EQ(parse_request("PUT / HTTP/1.1\r\n\r\n")->method, HttpRequest::Method::other);
   EXPECT_EQ(parse_request("HEAD / HTTP/1.1\r\n\r\n")->method, HttpRequest::Method::head);
-  for (const char* none :
-       {"", "GET / HTTP/1.1\r\n", "GET / HTTP/1.1\r\nContent-Length: 1\r\n\r\nx", "GET\r\n\r\n"})
+  for (const char* none : {"", "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", "GET / HTTP/1.1\r\n",
+                           "GET / HTTP/1.1\r\nContent-Length: 1\r\n\r\nx", "GET\r\n\r\n"})
     EXPECT_FALSE(parse_request(none)) << none;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/monitor/pair_candidates.hpp"
 
@@ -35,6 +36,7 @@ struct PastProblem {
 struct PlaceNow {
   GeoPoint position;
   double heading = 0.0;  ///< rad, counter-clockwise from east
+  Stamp stamp{};         ///< by its clock
 };
 
 /// One robot at present, as the robot that shows the page has heard of it.

@@ -13,7 +13,7 @@ namespace {
 
 using output::LinkTraceRow;
 
-constexpr std::size_t kMaxSteps = 300;
+constexpr std::size_t kMaxSteps = 900;
 constexpr Duration kBetweenMissions = std::chrono::hours(1);
 constexpr double kSecond = 1.0;  // that a row tells of
 

@@ -8,7 +8,7 @@
 
 namespace fleetmap::apps {
 
-/// Messages that the robots heard in their last mission, in at most 300 steps of equal length: the rows after
+/// Messages that the robots heard in their last mission, in at most 900 steps of equal length: the rows after
 /// the last hour in which none logged anything, in any order. Has no kinds, traces and reports.
 monitor::RadioHistory radio_history(std::vector<output::LinkTraceRow> rows);
 

@@ -112,7 +112,7 @@ void add_status(const messages::AgentStatus& status, monitor::RobotNow& robot) {
   if (status.battery >= 0.0f) robot.battery = status.battery;
   if (status.position_stddev > 0.0f) {
     robot.sigma_m = status.position_stddev;
-    robot.place = {status.position, status.heading};
+    robot.place = {status.position, status.heading, status.stamp};
   }
   if (const auto behind = messages::seconds_behind(status.health.clock_offset)) {
     robot.clock = {sensor::to_string(static_cast<sensor::Source>(status.health.clock_sensor)), *behind};

@@ -2,6 +2,7 @@ import type {Vector3} from 'three';
 import {el} from './dom';
 import type {Edge} from './edges';
 import {geoText, toGeo} from './geodesy';
+import type {RobotLink} from './links';
 import {
   comparable,
   duration,
@@ -39,6 +40,18 @@ export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTML
   const tied = state.alignments.filter((one) => one.i === id || one.j === id).length;
   rows.push(['alignments', String(tied)]);
   return [el('h2', {}, `Node ${id}`), table(rows)];
+}
+
+/** Describes a link between two robots; `shownBy`: the running robot that hears the other, else it is of a run. */
+export function linkCard({from, to, text}: RobotLink, shownBy?: string): HTMLElement[] {
+  const when = shownBy ? `now, as ${shownBy} hears it` : 'at the time of the slider, by the worse of both ways';
+  return [
+    el('h2', {}, `Link of ${from} and ${to}`),
+    table([
+      ['state', text],
+      ['known', when],
+    ]),
+  ];
 }
 
 const madeRow = (node: FleetNode): [string, string] => [

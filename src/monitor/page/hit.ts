@@ -44,7 +44,7 @@ export function hitAt(
   return best;
 }
 
-function distanceToSegment(p: Pixel, a: Pixel, b: Pixel): number {
+export function distanceToSegment(p: Pixel, a: Pixel, b: Pixel): number {
   const x = b.x - a.x;
   const y = b.y - a.y;
   const length2 = x * x + y * y;

@@ -1,4 +1,5 @@
 import {el} from './dom';
+import type {RobotLink} from './links';
 import {duration, metres} from './model';
 import type {ColourMode} from './point_material';
 
@@ -54,21 +55,20 @@ export function edgeKeys(kinds: readonly (keyof typeof kEdgeNames)[]): HTMLEleme
   return kinds.map((kind) => el('span', {}, el('i', {class: `key ${kind}`}), kEdgeNames[kind]));
 }
 
+type Quality = RobotLink['quality'];
+
 /**
- * The lines between robots on the map, as the robot `self` that shows the page hears the others. It does not know how
- * these hear each other.
+ * The lines between robots on the map of these qualities. `of`: the robot that shows the page, as it hears the others,
+ * since it does not know how these hear each other; or the robots of a run that logged what they heard.
  */
-export function linkKeys(self: string): HTMLElement[] {
-  return [
-    linkKey('good', `heard by ${self}, whose links alone are drawn`),
-    linkKey('poor', 'loses a fifth, or late'),
-    linkKey('silent', 'lost'),
-  ];
+export function linkKeys(drawn: ReadonlySet<Quality>, of: {running: string} | {traces: string[]; all: boolean}) {
+  const words: Record<Quality, string> =
+    'running' in of
+      ? {good: `heard by ${of.running}`, poor: 'loses a fifth, or late', silent: 'lost'}
+      : {good: 'heard then', poor: 'a fifth lost, or one way', silent: ''};
+  const alone = 'running' in of ? of.running : of.all ? '' : of.traces.join(', ');
+  const keys = (['good', 'poor', 'silent'] as const)
+    .filter((quality) => drawn.has(quality))
+    .map((quality) => el('span', {}, el('i', {class: `key link-${quality}`}), words[quality]));
+  return keys.length > 0 && alone ? [...keys, el('span', {}, `(links of ${alone} alone)`)] : keys;
 }
-
-/** The same, as the robots of a run logged them. */
-export function pastLinkKeys(): HTMLElement[] {
-  return [linkKey('good', 'heard at the time of the slider'), linkKey('poor', 'lost a fifth')];
-}
-
-const linkKey = (kind: string, words: string) => el('span', {}, el('i', {class: `key link-${kind}`}), words);

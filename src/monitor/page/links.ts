@@ -1,4 +1,4 @@
-import {ago, type HeardLink, linkName, type LinkName, type Live, type RadioHistory} from './model';
+import {ago, linkName, type LinkName, type Live, type RadioHistory} from './model';
 
 /** Whether robot `to` hears robot `from`, by the better of its links. */
 export interface RobotLink {
@@ -30,25 +30,48 @@ export function linksOf(live: Live, later: number): RobotLink[] {
     });
 }
 
-/** Links between any two robots at `t`, s after the first node: the better of both ways and of both links. */
+/**
+ * Links between any two robots at `t`, s after the first node: over Wi-Fi while that is heard, else over the radio; the
+ * worse of both ways. Of a way to a robot without a link trace nothing is known.
+ */
 export function linksAt(history: RadioHistory, t: number): RobotLink[] {
   if (history.begin_s === undefined || t < history.begin_s) return [];
-  const step = Math.min(Math.floor((t - history.begin_s) / history.step_s), history.steps - 1);
-  const best = new Map<string, {one: HeardLink; loss: number}>();
-  for (const one of history.links) {
-    const loss = lastLoss(one, step, history.step_s);
-    const pair = [one.from, one.to].sort().join(' ');
-    if (loss !== undefined && loss < (best.get(pair)?.loss ?? 1)) best.set(pair, {one, loss});
+  const step = Math.floor((t - history.begin_s) / history.step_s);
+  const heard = new Map<string, Way[]>(); // by pair
+  for (const {from, to, link, loss_in} of history.links) {
+    const last = lastHeard(loss_in, step, Math.max(1, Math.ceil(kRemembered_s[link] / history.step_s)));
+    const pair = [from, to].sort().join(' ');
+    if (last) heard.set(pair, [...(heard.get(pair) ?? []), {from, to, link, ...last}]);
   }
-  return [...best.values()].map(({one, loss}) => ({from: one.from, to: one.to, ...byLoss(one.link, loss)}));
+  return [...heard.values()].map((ways) => linkOf(ways, history));
 }
 
-/** In the last step in which something was logged, unless that is long ago; 1: it fell silent. */
-function lastLoss({link, loss_in}: HeardLink, step: number, step_s: number): number | undefined {
-  const oldest = step - Math.ceil(kRemembered_s[link] / step_s);
-  for (let k = step; k >= Math.max(0, oldest); --k) {
-    const loss = loss_in[k];
-    if (loss !== null) return loss;
+interface Way {
+  from: string;
+  to: string;
+  link: LinkName;
+  loss: number;
+  steps: number; // since it was heard
+}
+
+function linkOf(all: Way[], {traces, step_s}: RadioHistory): RobotLink {
+  const near = all.filter((way) => way.link === 'short_range'),
+    ways = near.length > 0 ? near : all;
+  const worst = ways.reduce((a, b) => (b.loss > a.loss ? b : a));
+  const {from, to, link} = worst;
+  if (ways.length === 1 && traces.includes(from))
+    return {from, to, quality: 'poor', text: `${linkName(link)}, ${to} alone hears the other`};
+  const latest = Math.min(...ways.map((way) => way.steps)) * step_s;
+  const since = latest > kLate_s ? `, heard ${ago(latest)} before` : '';
+  const {quality, text} = byLoss(link, worst.loss);
+  return {from, to, quality, text: text + since};
+}
+
+/** The last of the steps in which something was heard, unless that is longer ago than `memory` or it fell silent. */
+function lastHeard(loss_in: (number | null)[], step: number, memory: number): Pick<Way, 'loss' | 'steps'> | undefined {
+  for (let k = step; k >= Math.max(0, step - memory); --k) {
+    const loss = loss_in[k] ?? null;
+    if (loss !== null) return loss < 1 ? {loss, steps: step - k} : undefined;
   }
   return undefined;
 }

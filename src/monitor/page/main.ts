@@ -1,9 +1,10 @@
 import {CardBox} from './card_box';
+import {linkCard} from './cards';
 import {RobotColours} from './colours';
 import {actOnKey} from './keys';
 import {follow} from './live';
 import type {Hit} from './hit';
-import {edgeKeys, linkKeys, pastLinkKeys, type Picture, rampEnds, rampKey, scaleLength} from './legend';
+import {edgeKeys, linkKeys, type Picture, rampEnds, rampKey, scaleLength} from './legend';
 import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {edgeOfRegistration} from './edges';
@@ -71,7 +72,6 @@ function showState(next: State): void {
   );
   map?.show(next);
   selection.refresh(before, next);
-  setTime();
   why.show(next);
   fleet.show(next);
   if (next.radio && !shownBy) {
@@ -79,6 +79,7 @@ function showState(next: State): void {
     radio.show(next.radio, next.robots);
     byId('tab-radio').hidden = false;
   }
+  setTime();
 }
 
 follow({
@@ -184,6 +185,7 @@ function setTime(): void {
   byId<HTMLInputElement>('time').value = String(end > 0 && until !== undefined ? Math.round((1000 * t) / end) : 1000);
   setText(byId('time-value'), duration(t));
   byId('time').setAttribute('aria-valuetext', duration(t));
+  if (radio instanceof RadioHistoryPanel) radio.showTime(t);
   if (map) {
     map.until = until ?? Infinity;
     map.remark();
@@ -233,7 +235,9 @@ function showLegend(picture: Picture): void {
   const kinds = (['used', 'unused', 'rejected'] as const).filter(
     (kind) => map?.layers[kind] && map.edges.some((edge) => edge.kind === kind),
   );
-  const key = [colour, shownBy, ...kinds, ...ends, ...state.robots.map((robot) => robot.id + placeMark(robot))].join();
+  const drawn: NonNullable<typeof marks>['qualities'] = marks?.qualities ?? new Set();
+  const names = state.robots.map((robot) => robot.id + placeMark(robot));
+  const key = [colour, shownBy, ...kinds, ...drawn, ...ends, ...names].join();
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) =>
@@ -245,7 +249,9 @@ function showLegend(picture: Picture): void {
     ),
   );
   const ramp = rampKey(picture, colour);
-  const links = shownBy ? linkKeys(shownBy) : state.radio?.begin_s === undefined ? [] : pastLinkKeys();
+  const traces = state.radio?.traces ?? [];
+  const all = state.robots.every(({id}) => traces.includes(id));
+  const links = linkKeys(drawn, shownBy ? {running: shownBy} : {traces, all});
   byId('legend').replaceChildren(...robots, ...edgeKeys(kinds), ...links, ...(ramp ? [ramp] : []));
 }
 
@@ -259,13 +265,21 @@ canvas.addEventListener('pointerup', (event) => {
   if (!map || !down || Math.hypot(event.offsetX - down.x, event.offsetY - down.y) > 5) return;
   const reach = event.pointerType === 'touch' ? 18 : 10;
   if (measure?.active) return measure.click(event.offsetX, event.offsetY, reach, state!.origin);
-  select(map.pick(event.offsetX, event.offsetY, reach));
+  pickAt(event.offsetX, event.offsetY, reach);
 });
+/** Describes the node or edge at a pixel, else the link between two robots, else the point. False: nothing is there. */
+function pickAt(x: number, y: number, reach: number): boolean {
+  const link = map?.hitAt(x, y, reach) ? undefined : marks?.linkAt(x, y, reach),
+    hit = link ? undefined : map?.pick(x, y, reach);
+  select(hit);
+  if (link) card.show(linkCard(link, shownBy));
+  return Boolean(link ?? hit);
+}
 canvas.addEventListener('pointermove', (event) => {
   if (!map || event.buttons !== 0) return;
   canvas.style.cursor = measure?.active
     ? 'crosshair'
-    : map.hitAt(event.offsetX, event.offsetY, 10)
+    : (map.hitAt(event.offsetX, event.offsetY, 10) ?? marks?.linkAt(event.offsetX, event.offsetY, 10))
       ? 'pointer'
       : 'grab';
 });
@@ -291,9 +305,7 @@ function pickAtCross(): void {
   const x = canvas.clientWidth / 2,
     y = canvas.clientHeight / 2;
   if (!measure?.active) {
-    const hit = map.pick(x, y, kCrossReach);
-    select(hit);
-    return void say(hit ? '' : 'Nothing is at the cross.');
+    return void say(pickAt(x, y, kCrossReach) ? '' : 'Nothing is at the cross.');
   }
   say(measure.click(x, y, kCrossReach, state.origin) ? '' : 'No point is at the cross.');
 }

@@ -108,7 +108,7 @@ export class FleetMap {
     this.edges = edgesOf(state);
     this.setLines();
     if (!this.eye.fitted && this.nodes.size > 0) this.fit();
-    else if (this.eye.follows && !this.seesAll()) this.eye.fit(this.places(), kGrowth);
+    else if (this.eye.follows && !this.eye.holds(this.places())) this.eye.fit(this.places(), kGrowth);
     this.drawArrived();
   }
 
@@ -181,13 +181,6 @@ export class FleetMap {
     return [...this.nodes.values()].map(({p}) => p);
   }
 
-  private seesAll(): boolean {
-    const {clientWidth, clientHeight} = this.canvas;
-    return this.places().every((p) => {
-      const at = this.project(p);
-      return at && at.x >= 0 && at.x <= clientWidth && at.y >= 0 && at.y <= clientHeight;
-    });
-  }
 
   project(p: THREE.Vector3): Place | undefined {
     return placeOf(p, this.eye.camera, this.canvas);

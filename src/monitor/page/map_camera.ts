@@ -5,7 +5,10 @@ const kFov = 50; // degrees
 const kFar = 20_000; // m
 const kNearest = 60; // m, of the picture's height when it goes to a place
 const kBorder = 20; // m
-const kInside = 0.9; // of the picture's half
+const kCovered_px = [30, 100]; // at each side, above and below: tools, legend, slider
+const kFitSteps = 8;
+const kLoose = 1.03; // nothing touches the border
+const kMostCovered = 0.2; // of the picture, at each side
 const kStep = 0.15; // of the picture's height
 
 type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
@@ -113,25 +116,63 @@ export class MapCamera {
     this.fitted = this.follows = true;
     const size = box.getSize(new THREE.Vector3()),
       aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    const span = Math.max(size.y, size.x / aspect) + kBorder;
+    const [free_x, free_y] = this.free();
+    const span = Math.max(size.y / free_y, size.x / aspect / free_x) + kBorder;
     const middle = box.getCenter(new THREE.Vector3());
-    this.aim(middle, room * (this.planar ? span : this.spanOfAll(middle, span, places)));
+    this.aim(middle, span);
+    if (!this.planar) for (let k = 0; k < kFitSteps; ++k) this.frame(places, aspect);
+    if (room > 1) this.aim(this.target.clone(), room * this.span());
   }
 
-  /** Height of a picture in 3D that has all places: those before the middle look larger than on the plan. */
-  private spanOfAll(middle: THREE.Vector3, span: number, places: THREE.Vector3[]): number {
-    for (let k = 0; k < 5; ++k) {
-      this.aim(middle, span);
-      this.perspective.updateMatrixWorld();
-      const reaches = places.map((p) => {
-        const {x, y, z} = p.clone().project(this.perspective);
-        return z > 1 ? 2 * kInside : Math.max(Math.abs(x), Math.abs(y)); // behind the eye
-      });
-      const reach = reaches.reduce((most, one) => Math.max(most, one), 0);
-      if (reach <= kInside) break;
-      span *= reach / kInside;
+  /** Moves and zooms the view in 3D, where near places look larger than on the plan, so that they fill the picture. */
+  private frame(places: THREE.Vector3[], aspect: number): void {
+    const span = this.span();
+    const [low, high] = this.bounds(places);
+    if (!Number.isFinite(high[0])) return this.aim(this.target.clone(), 2 * span); // one is behind the eye
+    const half = Math.max(high[0] - low[0], high[1] - low[1]) / 2;
+    const [free_x, free_y] = this.free();
+    const right = (((low[0] + high[0]) / 2) * free_x * span * aspect) / 2,
+      up = (((low[1] + high[1]) / 2) * free_y * span) / 2;
+    const [x_axis, ahead] = [new THREE.Vector3(), this.perspective.getWorldDirection(new THREE.Vector3())];
+    x_axis.setFromMatrixColumn(this.perspective.matrixWorld, 0);
+    const tilt = Math.max(0.3, Math.abs(ahead.z)); // the ground is seen from so far above
+    const target = this.target.clone().addScaledVector(x_axis, right);
+    this.aim(target.addScaledVector(ahead.setZ(0).normalize(), up / tilt), Math.max(kBorder, span * half * kLoose));
+  }
+
+  /** Whether all of these places are in the picture, and nothing lies over them. */
+  holds(places: THREE.Vector3[]): boolean {
+    const [low, high] = this.bounds(places);
+    return Math.min(...low) >= -1 && Math.max(...high) <= 1;
+  }
+
+  /**
+   * Lowest and highest x and y of places in the picture, as shares of the way from the middle to where something lies
+   * over the map; infinite where one is behind the eye.
+   */
+  private bounds(places: THREE.Vector3[]): [[number, number], [number, number]] {
+    this.camera.updateMatrixWorld();
+    const [free_x, free_y] = this.free();
+    const low: [number, number] = [Infinity, Infinity],
+      high: [number, number] = [-Infinity, -Infinity];
+    for (const place of places) {
+      const p = place.clone().project(this.camera);
+      const seen = p.z > 1 ? [Infinity, Infinity] : [p.x / free_x, p.y / free_y];
+      for (const k of [0, 1]) {
+        low[k] = Math.min(low[k], seen[k]);
+        high[k] = Math.max(high[k], seen[k]);
+      }
     }
-    return span;
+    return [low, high];
+  }
+
+  /** Share of the picture's width and height over which nothing lies. */
+  private free(): [number, number] {
+    const {clientWidth, clientHeight} = this.canvas;
+    const [x, y] = [clientWidth, clientHeight].map(
+      (length, k) => 1 - 2 * Math.min(kMostCovered, kCovered_px[k] / Math.max(1, length)),
+    );
+    return [x, y];
   }
 
   /** Brings a place into the middle, and near enough to see it. */

@@ -118,6 +118,7 @@ export interface RadioHistory {
 export interface State {
   title: string;
   self: string;
+  begin_s: number; // the stamp of the first node
   origin: {latitude_deg: number; longitude_deg: number; altitude_m: number};
   robots: Robot[];
   nodes: FleetNode[];
@@ -218,7 +219,7 @@ export interface RobotNow {
   heard: {link: LinkName; seconds_ago: number}[];
   battery: number | null;
   sigma_m: number | null;
-  place: [number, number, number, number] | null; // by its EKF: latitude, longitude (deg), altitude (m), heading (rad)
+  place: [number, number, number, number, number] | null; // by its EKF: WGS84 (deg, m), heading (rad), stamp (s)
   clock: {sensor: string; behind_s: number} | null; // that is off most, within a factor of 1.4
   nodes: number;
   alignments: number;

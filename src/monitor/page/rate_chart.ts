@@ -54,7 +54,7 @@ export class RateChart {
       dash,
       width: 2,
       points: {show: false},
-      value: (_: uPlot, v: number | null) => (v === null ? '' : unbroken(`${bytes(v)}/s`)),
+      value: (_: uPlot, v: number | null) => (v === null ? '–' : unbroken(`${bytes(v)}/s`)),
     });
     const looks: [string, number[]?][] = [['#2f7de1'], ['#1fa774'], [colour('--soft'), [6, 4]]];
     const lines = this.labels.map((label, k) => line(label, ...looks[k]));
@@ -68,7 +68,7 @@ export class RateChart {
           {...axis, values: (_, values) => values.map((t) => `${Math.round(t)} s`), size: 28},
           {...axis, values: (_, values) => values.map(bytes), size: 56},
         ],
-        series: [{label: 'time', value: (_, t) => (t === null ? '' : ago(t))}, ...lines],
+        series: [{label: 'time', value: (_, t) => (t === null ? '–' : ago(t))}, ...lines],
       },
       points,
       this.root,

@@ -2,6 +2,7 @@ import * as THREE from 'three';
 import {shape} from './dom';
 import {type Geo, toEnu} from './geodesy';
 import {linksAt, linksOf, type RobotLink} from './links';
+import {distanceToSegment} from './hit';
 import type {FleetMap} from './map';
 import {colourOf, type FleetNode, isNumber, type Live, type RadioHistory, type State} from './model';
 import type {Place} from './picking';
@@ -9,6 +10,7 @@ import {matrixOf} from './submap';
 
 const kLabel_px = 62; // half of the longest label
 const kLine_px = 15;
+const kOtherClock_s = 600; // a robot that drives makes a node more often
 const kCorners = 32; // of an ellipse
 const k95 = 2.4477; // sigmas of two dimensions that hold 95 %
 
@@ -18,6 +20,7 @@ interface Mark {
   p: THREE.Vector3;
   ahead: THREE.Vector3; // a place in front of it
   ellipse: THREE.Vector3[]; // where it is with 95 %, around p; empty: not known
+  stamp_s: number; // of its last node
   T_map_enu?: THREE.Matrix4; // what alignments corrected at its last node, which holds for its EKF, too
 }
 
@@ -27,13 +30,17 @@ interface Mark {
  */
 export class RobotMarks {
   shown = true;
+  /** Those of the links that are drawn. */
+  readonly qualities = new Set<RobotLink['quality']>();
+  private lines: {link: RobotLink; a: Place; b: Place}[] = [];
   private marks: Mark[] = [];
   private origin?: Geo; // of ENU
   private live?: Live;
   private history?: RadioHistory;
   private heardAt = 0;
   private drawn = '';
-  private until = Infinity; // s; Infinity: the marks are of the present, or of the mission's end
+  private until = Infinity; // s; Infinity: the present, or the mission's end
+  private end = 0; // s, of the last node
 
   constructor(
     private map: FleetMap,
@@ -44,6 +51,7 @@ export class RobotMarks {
   show(state: State, until: number): void {
     this.until = until;
     this.origin = state.origin;
+    this.end = state.nodes.reduce((last, {t}) => Math.max(last, t), 0);
     this.history = state.radio ?? undefined;
     const last = new Map<string, FleetNode>();
     for (const node of state.nodes)
@@ -64,6 +72,7 @@ export class RobotMarks {
         colour: colourOf(state, robot),
         p,
         ahead: ahead.add(p),
+        stamp_s: state.begin_s + (node.stamp_s ?? node.t),
         ellipse: covariance ? ellipseOf(covariance).map(([dx, dy]) => new THREE.Vector3(dx, dy, 0)) : [],
         T_map_enu: node.gps?.every(isNumber) ? matrixOf(node.T!).multiply(matrixOf(node.gps).invert()) : undefined,
       };
@@ -79,6 +88,8 @@ export class RobotMarks {
 
   /** After each picture of the map. */
   draw(): void {
+    this.qualities.clear();
+    this.lines = [];
     if (!this.shown) return this.replace([]);
     const marks = this.marks.map((mark) => this.atPresent(mark));
     const places = new Map(marks.map((mark) => [mark.robot, this.map.project(mark.p)]));
@@ -89,10 +100,13 @@ export class RobotMarks {
       names = new Map<string, Box>();
     for (const [robot, place] of places)
       if (place) names.set(robot, freeBox(boxOf(robot, place.x + 12 + 3.5 * robot.length, place.y - 10), taken));
-    for (const {from, to, quality, text} of links) {
+    for (const link of links) {
+      const {from, to, quality, text} = link;
       const one = places.get(from),
         other = places.get(to);
       if (!one || !other) continue;
+      this.qualities.add(quality);
+      this.lines.push({link, a: one, b: other});
       const line = {x1: one.x, y1: one.y, x2: other.x, y2: other.y};
       lines.push(shape('line', {...line, class: 'link-border'}), shape('line', {...line, class: `link ${quality}`}));
       const box = boxOf(text, this.within((one.x + other.x) / 2), (one.y + other.y) / 2 - 5);
@@ -109,20 +123,35 @@ export class RobotMarks {
     this.replace([...lines, ...words, ...robots]);
   }
 
-  /** Moved to where the robot's last status has it, while the present is shown. */
+  /**
+   * Moved to where the robot's last status has it, while the present is shown. A status may be older than a node, and
+   * nodes of a recording have the time of another day.
+   */
   private atPresent(mark: Mark): Mark {
     const place = this.until === Infinity && this.live?.robots.find(({id}) => id === mark.robot)?.place;
     if (!place || !mark.T_map_enu || !this.origin) return mark;
-    const [latitude_deg, longitude_deg, altitude_m, heading] = place;
+    const [latitude_deg, longitude_deg, altitude_m, heading, stamp_s] = place;
+    if (stamp_s < mark.stamp_s || stamp_s > mark.stamp_s + kOtherClock_s) return mark;
     const enu = new THREE.Vector3(...toEnu(this.origin, {latitude_deg, longitude_deg, altitude_m}));
     const p = enu.clone().applyMatrix4(mark.T_map_enu).setZ(mark.p.z); // the height of an EKF's place is its worst
     const ahead = enu.add(new THREE.Vector3(Math.cos(heading), Math.sin(heading), 0)).applyMatrix4(mark.T_map_enu);
     return {...mark, p, ahead: ahead.setZ(p.z)};
   }
 
+  /** The link that is drawn within `reach` pixels of a place. */
+  linkAt(x: number, y: number, reach: number): RobotLink | undefined {
+    let nearest = reach,
+      found: RobotLink | undefined;
+    for (const {link, a, b} of this.lines) {
+      const distance = distanceToSegment({x, y}, a, b);
+      if (distance < nearest) [nearest, found] = [distance, link];
+    }
+    return found;
+  }
+
   private links(): RobotLink[] {
     if (this.live) return this.until === Infinity ? linksOf(this.live, (performance.now() - this.heardAt) / 1000) : [];
-    return this.history ? linksAt(this.history, this.until) : [];
+    return this.history ? linksAt(this.history, Math.min(this.until, this.end)) : [];
   }
 
   /** Shapes that are drawn anew over the canvas make the browser compose the whole map again. */
@@ -159,7 +188,7 @@ export class RobotMarks {
         'data-mark': robot,
         style: `fill:${fill};stroke:${stroke}`,
       }),
-      label(silent ? `${robot} (lost)` : robot, x + 12, nameY, 'robot-name'),
+      label(silent ? `${robot} (lost)` : robot, x + 12, nameY, 'robot-name', colour),
     );
     return shapes;
   }
@@ -197,6 +226,7 @@ function freeBox(box: Box, taken: Box[]): Box {
   return {...box, y};
 }
 
-function label(text: string, x: number, y: number, kind: string): SVGElement {
-  return shape('text', {x: x.toFixed(1), y: y.toFixed(1), class: kind}, text);
+function label(text: string, x: number, y: number, kind: string, colour = ''): SVGElement {
+  const style = colour && `fill:color-mix(in srgb, ${colour} 70%, #10161d)`; // dark enough to be read
+  return shape('text', {x: x.toFixed(1), y: y.toFixed(1), class: kind, style}, text);
 }

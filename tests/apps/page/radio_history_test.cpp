@@ -58,13 +58,13 @@ TEST(RadioHistory, DirectionsAndLinksAreApart) {
   EXPECT_THAT(radio_history({second_at(0.0), back, near}).links, SizeIs(3));
 }
 
-TEST(RadioHistory, ALongMissionHasAtMost300StepsOfTheMeanRate) {
+TEST(RadioHistory, ALongMissionHasAtMost900StepsOfTheMeanRate) {
   std::vector<output::LinkTraceRow> rows;
-  for (int s = 0; s < 1000; ++s) rows.push_back(second_at(s));
+  for (int s = 0; s < 3000; ++s) rows.push_back(second_at(s));
   const auto history = radio_history(rows);
   EXPECT_EQ(history.step_s, 4.0);
-  EXPECT_EQ(history.steps, 250u);
-  EXPECT_DOUBLE_EQ(history.links[0].bytes, 1e5);
+  EXPECT_EQ(history.steps, 750u);
+  EXPECT_DOUBLE_EQ(history.links[0].bytes, 3e5);
   EXPECT_THAT(history.links[0].received, ::testing::Each(100.0));
 }
 

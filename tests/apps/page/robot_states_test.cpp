@@ -103,12 +103,14 @@ TEST_F(RobotsNow, ThePlaceOfAStatusCountsOnceItsPoseIsKnown) {
   messages::AgentStatus& status = fleet_.statuses[kPeer];
   status.position = geo_point_from_degrees(39.0, -3.0, 600.0);
   status.heading = 1.5f;
+  status.stamp = Stamp{7s};
   EXPECT_FALSE(of(kPeer).place) << "without a pose the place is zero or old";
   status.position_stddev = 0.5f;
   const auto place = of(kPeer).place;
   ASSERT_TRUE(place);
   EXPECT_EQ(place->position.latitude, status.position.latitude);
   EXPECT_EQ(place->heading, 1.5);
+  EXPECT_EQ(place->stamp, Stamp{7s});
 }
 
 TEST_F(RobotsNow, TheLinkOnWhichItWasHeardLastComesFirst) {

@@ -5,7 +5,7 @@ import {pageModule, three} from './page_module.mjs';
 import {alignment, node, registration, state} from './states.mjs';
 
 await openPage(process.argv[2]);
-const {edgeCard, edgeOfRegistration, nodeCard, pointCard, stepCard} = await pageModule(
+const {edgeCard, edgeOfRegistration, linkCard, nodeCard, pointCard, stepCard} = await pageModule(
   process.argv[2],
   'cards',
   'edges',
@@ -107,3 +107,10 @@ assert.deepEqual([held.heading, held.sentence], ['Alignment in use: r2#0 → r1#
 // JSON has null for a sigma that is infinite.
 const endless = state({nodes: [node('r1', 0, [0, 0, 0], {gps_sigma_m: null})]});
 assert.equal(content(nodeCard(endless, 'r1#0', undefined)).rows.GPS, 'of unknown accuracy');
+
+// A link between robots: of a running robot as it hears the other, of a run at a time.
+const link = {from: 'r1', to: 'r2', quality: 'poor', text: 'Wi-Fi, 30 % lost'};
+const live = linkCard(link, 'r1');
+assert.equal(textOf(live[0]), 'Link of r1 and r2');
+assert.equal(textOf(live[1]), 'stateWi-Fi, 30 % lostknownnow, as r1 hears it');
+assert.match(textOf(linkCard(link)[1]), /at the time of the slider, by the worse of both ways$/);

@@ -4,7 +4,7 @@ import {openPage, textOf} from './fake_page.mjs';
 import {pageModule} from './page_module.mjs';
 
 await openPage(process.argv[2]);
-const {edgeKeys, linkKeys, pastLinkKeys, rampEnds, rampKey, scaleLength} = await pageModule(process.argv[2], 'legend');
+const {edgeKeys, linkKeys, rampEnds, rampKey, scaleLength} = await pageModule(process.argv[2], 'legend');
 
 // A round number that takes 44 to 110 pixels, whatever the zoom.
 for (let metresPerPixel = 1e-3; metresPerPixel < 100; metresPerPixel *= 1.07) {
@@ -30,6 +30,9 @@ assert.equal(textOf(rampKey(picture, 'height')), 'Height: -1.3 m7.0 m');
 const edges = edgeKeys(['used', 'rejected']);
 assert.deepEqual(edges.map(textOf), ['alignment in use', 'rejected registration']);
 assert.ok(edges[1].querySelector('.key.rejected'));
-const links = ['heard by r1, whose links alone are drawn', 'loses a fifth, or late', 'lost'];
-assert.deepEqual(linkKeys('r1').map(textOf), links);
-assert.deepEqual(pastLinkKeys().map(textOf), ['heard at the time of the slider', 'lost a fifth']);
+// Links have keys for what is drawn alone; the legend says whose they are, unless they are all.
+const keys = (drawn, of) => linkKeys(new Set(drawn), of).map(textOf);
+assert.deepEqual(keys(['silent', 'good'], {running: 'r1'}), ['heard by r1', 'lost', '(links of r1 alone)']);
+assert.deepEqual(keys([], {running: 'r1'}), []);
+assert.deepEqual(keys(['good', 'poor'], {traces: ['r1', 'r2'], all: true}), ['heard then', 'a fifth lost, or one way']);
+assert.deepEqual(keys(['good'], {traces: ['r2', 'r3'], all: false}), ['heard then', '(links of r2, r3 alone)']);

@@ -36,29 +36,49 @@ assert.deepEqual(words(0), [
 // A status that nothing follows turns all links silent.
 assert.ok(linksOf(base, 61).every((one) => one.quality === 'silent'));
 
-// A run has links between all robots at a time, by the better of both ways and media.
+// A run has links between all robots at a time: over Wi-Fi while that is heard, by the worse of both ways.
+const heardAt = (from, to, link, loss_in) => heardLink(from, to, link, 300, {loss_in});
 const history = radioHistory({
   begin_s: 10,
-  steps: 200,
+  steps: 300,
+  traces: ['r1', 'r2', 'r3'],
   links: [
-    heardLink('r1', 'r2', 'long_range', 200, {loss_in: {0: 0.5, 5: 0.25}}),
-    heardLink('r2', 'r1', 'long_range', 200, {loss_in: {5: 0.012}}),
-    heardLink('r1', 'r2', 'short_range', 200, {loss_in: {7: 0, 9: 1, 30: 0}}),
-    heardLink('r3', 'r2', 'long_range', 200, {loss_in: {100: 0.3, 120: 1}}),
+    heardAt('r1', 'r2', 'long_range', {0: 0.5, 5: 0.25, 8: 0}),
+    heardAt('r2', 'r1', 'long_range', {0: 0, 5: 0.012, 8: 0}),
+    heardAt('r1', 'r2', 'short_range', {7: 0.3, 9: 1, 30: 0.004}),
+    heardAt('r2', 'r1', 'short_range', {7: 0, 9: 1, 30: 0}),
+    heardAt('r3', 'r2', 'long_range', {200: 0.3, 220: 1}),
+    heardAt('r2', 'r3', 'long_range', {200: 0, 221: 0}),
+    heardAt('r4', 'r1', 'long_range', {280: 0}),
   ],
 });
 const at = (t) => linksAt(history, t).map(({from, to, quality, text}) => `${from}-${to} ${quality} ${text}`);
 assert.deepEqual(at(9), [], 'nobody logged anything yet');
 assert.deepEqual(at(10), ['r1-r2 poor radio, 50 % lost']);
-assert.deepEqual(at(15), ['r2-r1 good radio, 1.2 % lost']);
-assert.deepEqual(at(17.5), ['r1-r2 good Wi-Fi, 0.0 % lost']);
-assert.deepEqual(at(19), ['r2-r1 good radio, 1.2 % lost'], 'the Wi-Fi fell silent, the radio did not');
-assert.deepEqual(at(46.5), ['r1-r2 good Wi-Fi, 0.0 % lost']);
-assert.deepEqual(at(47), ['r2-r1 good radio, 1.2 % lost'], 'the Wi-Fi is silent for longer than it may be');
-assert.deepEqual(at(80), ['r2-r1 good radio, 1.2 % lost'], 'robots may be quiet on the radio for a while');
-assert.deepEqual(at(81), [], 'nothing was heard for too long');
-assert.deepEqual(at(110), ['r3-r2 poor radio, 30 % lost']);
-assert.deepEqual(at(130), [], 'it fell silent');
+assert.deepEqual(at(15), ['r1-r2 poor radio, 25 % lost']);
+assert.deepEqual(at(17.5), ['r1-r2 poor Wi-Fi, 30 % lost'], 'the radio is as good, but Wi-Fi is heard');
+assert.deepEqual(at(19), ['r1-r2 good radio, 0.0 % lost'], 'the Wi-Fi fell silent, the radio did not');
+assert.deepEqual(at(29), ['r1-r2 good radio, 0.0 % lost, heard 11 s before']);
+assert.deepEqual(at(46), ['r1-r2 good Wi-Fi, 0.4 % lost']);
+assert.deepEqual(at(47), ['r1-r2 good radio, 0.0 % lost, heard 29 s before'], 'Wi-Fi is silent for too long');
+assert.deepEqual(at(83), ['r1-r2 good radio, 0.0 % lost, heard 65 s before'], 'robots may be quiet on the radio');
+assert.deepEqual(at(84), [], 'nothing was heard for too long');
+assert.deepEqual(at(210), ['r3-r2 poor radio, 30 % lost']);
+assert.deepEqual(at(231), ['r2-r3 poor radio, r3 alone hears the other'], 'r3 fell silent');
+assert.deepEqual(at(290), ['r2-r3 poor radio, r3 alone hears the other', 'r4-r1 good radio, 0.0 % lost']);
 assert.deepEqual(linksAt({...history, begin_s: undefined}, 15), [], 'of another time than the nodes');
-history.links[3].loss_in[199] = 0;
-assert.deepEqual(at(Infinity), ['r3-r2 good radio, 0.0 % lost'], 'the end');
+assert.deepEqual(at(400), [], 'the trace is over');
+
+// In a long run a step is longer than a robot may be silent: the step before counts, too.
+const long = radioHistory({
+  begin_s: 0,
+  step_s: 40,
+  steps: 300,
+  traces: ['r1'],
+  links: [heardAt('r2', 'r1', 'short_range', {3: 0})],
+});
+const texts = (t) => linksAt(long, t).map(({text}) => text);
+assert.deepEqual(texts(119), []);
+assert.deepEqual(texts(121), ['Wi-Fi, 0.0 % lost']);
+assert.deepEqual(texts(161), ['Wi-Fi, 0.0 % lost, heard 40 s before']);
+assert.deepEqual(texts(201), []);

@@ -207,11 +207,6 @@ assert.match(textOf(byId('legend')), /r1.*r2 \(not georeferenced\)/);
 say(fleet);
 picture({});
 assert.doesNotMatch(textOf(byId('legend')), /georeferenced/);
-assert.match(
-  textOf(byId('legend')),
-  /heard by r1, whose links alone are drawn.*lost/,
-  'the robot is running: links are on the map',
-);
 byId('layer-robots').onchange({target: {checked: false}});
 assert.equal(byId('robots').children.length, 0);
 byId('layer-robots').onchange({target: {checked: true}});

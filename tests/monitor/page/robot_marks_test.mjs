@@ -71,7 +71,8 @@ const aligned = state({
 const origin = aligned.origin;
 marks.show(aligned, Infinity);
 const status = (place) => marks.showLive(live([robotNow('r1', {place})], {}));
-status([origin.latitude_deg, origin.longitude_deg, origin.altitude_m, 0]);
+const here = [origin.latitude_deg, origin.longitude_deg, origin.altitude_m, 0];
+status([...here, 1001]);
 assert.equal(
   marksOf('r1').getAttribute('transform'),
   'translate(100.0 -10.0) rotate(-90.0)',
@@ -81,9 +82,15 @@ marks.show(aligned, 10);
 assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(-90.0)', 'as it was then');
 marks.show(state({nodes: [node('r1', 0, [5, 5, 0])]}), Infinity);
 assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(0.0)', 'nothing ties it to ENU');
-status(null);
 marks.show(aligned, Infinity);
-assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(-90.0)', 'not known');
+for (const [place, why] of [
+  [null, 'not known'],
+  [[...here, 999], 'the node is newer'],
+  [[...here, 1601], 'the clocks are others'],
+]) {
+  status(place);
+  assert.equal(marksOf('r1').getAttribute('transform'), 'translate(50.0 -50.0) rotate(-90.0)', why);
+}
 
 // At an earlier time robots are where they were; links are of the present.
 marks.show(fleet, 3);
@@ -114,12 +121,23 @@ const links = [
   heardLink('r1', 'r2', 'long_range', 10, {loss_in: {0: 0, 5: 1}}),
   heardLink('r3', 'r2', 'long_range', 10, {loss_in: {6: 0.5}}),
 ];
-const logged = {...beside, radio: radioHistory({begin_s: 0, steps: 10, links})};
+const logged = {
+  ...beside,
+  nodes: [...beside.nodes, node('r3', 9, [20, 20.5, 0])],
+  radio: radioHistory({begin_s: 0, steps: 10, links, traces: ['r2']}),
+};
 const ends = () => all('line.link').map((one) => `${one.getAttribute('class')} ${one.getAttribute('y1')}`);
 run.show(logged, 2);
 assert.deepEqual(ends(), ['link good 0']);
 run.show(logged, Infinity);
 assert.deepEqual(ends(), ['link poor -205']);
 assert.ok(labels().every((one) => !one.includes('lost')));
+assert.deepEqual([...run.qualities], ['poor'], 'the legend names what is drawn');
+
+// A link is found where its line is.
+assert.equal(run.linkAt(200, -202, 10)?.text, 'radio, 50 % lost');
+assert.equal(run.linkAt(100, -100, 10), undefined);
 run.show(beside, Infinity);
 assert.deepEqual(ends(), []);
+assert.equal(run.qualities.size, 0);
+assert.equal(run.linkAt(200, -202, 10), undefined);

@@ -65,6 +65,7 @@ export const pair = (a, b, joined, more = {}) => ({
 export const state = (more = {}) => ({
   title: 'made up',
   self: 'r1',
+  begin_s: 1000,
   origin: {latitude_deg: 49, longitude_deg: 8.4, altitude_m: 110},
   robots: [robot('r1'), robot('r2')],
   nodes: [node('r1', 0), node('r1', 1, [10, 0, 0]), node('r2', 0, [0, 10, 0]), node('r2', 1, [10, 10, 0])],
