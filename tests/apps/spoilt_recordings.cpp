@@ -193,10 +193,11 @@ std::vector<Spoilt> of_lidar() {
        "its points are mirrored"},
       {"points_in_millimetres", points([](sensor::ScanPoint& point) { point.position *= 1000.0f; }),
        "millimetres"},
-      {"half_of_each_scan", each<Scan>([](Scan& scan) {
-         std::erase_if(scan.points, [](const sensor::ScanPoint& point) { return point.position.y() < 0.0f; });
-       }),
-       ""},
+      corrected({"half_of_each_scan", each<Scan>([](Scan& scan) {
+                   std::erase_if(scan.points,
+                                 [](const sensor::ScanPoint& p) { return p.position.y() < 0.0f; });
+                 }),
+                 "if the driver crops the cloud, ignore this"}),
       {"scans_dropped_5_of_6", keep_if<Scan>([](std::size_t k, double) { return k % 6 == 0; }),
        "scans are missing"},
       {"scans_at_half_rate", keep_if<Scan>([](std::size_t k, double) { return k % 2 == 0; }),
