@@ -7,8 +7,10 @@
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "fleetmap/geometry/degree.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
@@ -80,6 +82,30 @@ TEST_F(SpoiltRecording, IsAsGoodOrTheCauseIsNamed) {
     expect_inspected(spoilt, inspect);
     std::filesystem::remove_all(bag);
   }
+}
+
+/// The reader, the survey and the search for the first fix open the file.
+TEST_F(SpoiltRecording, AFileThatWasCutIsReadToItsEndWhichIsNamedOnceAndFails) {
+  const std::filesystem::path bag = write("cut", good_), tum = folder_->path() / "cut.tum";
+  for (const auto& entry : std::filesystem::directory_iterator(bag)) {
+    if (entry.path().extension() == ".mcap")
+      std::filesystem::resize_file(entry.path(), entry.file_size() * 3 / 4);
+  }
+  const std::filesystem::path out = folder_->path() / "cut_out";
+  testing::Process odometry({testing::kProgram, "odometry", bag.string(), "--out", tum.string()});
+  testing::Process run(
+      {testing::kProgram, "run", "--recording", "r1=" + bag.string(), "--out", out.string()});
+  for (testing::Process* process : {&odometry, &run}) {
+    EXPECT_EQ(process->wait(), 1) << process->output();
+    EXPECT_THAT(process->output(), HasSubstr("1 part of the recording is damaged or cut off"));
+    const std::string output = process->output(), news = "its end is missing";
+    const auto first = output.find(news);
+    EXPECT_NE(first, std::string::npos) << output;
+    EXPECT_EQ(output.find(news, first + 1), std::string::npos) << output;
+  }
+  EXPECT_GT(output::read_growing_tum(tum).value().size(), good_.size() / 30);
+  EXPECT_TRUE(std::filesystem::exists(out / "r1/map.ply"));
+  EXPECT_TRUE(std::filesystem::exists(out / "report.json"));
 }
 
 TEST_F(SpoiltRecording, FindingsAreInTheReport) {
