@@ -11,6 +11,7 @@
 #include "fleetmap/ros_codec/points_type.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
+#include "fleetmap/sensor/lidar_frames.hpp"
 #include "packet_reader.hpp"
 #include "unpack.hpp"
 
@@ -196,7 +197,14 @@ class BagReader : public PacketReader {
 
   void note_frame(sensor::Source source, ByteView cdr) {
     std::string& id = frames_.ids[static_cast<std::size_t>(source)];
-    if (id.empty()) id = ros_codec::frame_id_of(cdr).value_or(std::string());
+    if (!id.empty() && source != sensor::Source::kLidar) return;
+    const std::string named = ros_codec::frame_id_of(cdr).value_or(std::string());
+    if (id.empty()) id = named;
+    if (source != sensor::Source::kLidar) return;
+    if (const auto finding = lidar_frames_.add(named)) {
+      warn(*finding);
+      add_finding(*finding);
+    }
   }
 
   void add_transforms(ByteView cdr, const std::string& topic) {
@@ -223,6 +231,7 @@ class BagReader : public PacketReader {
   bool ended_ = false;
   std::optional<Stamp> recorded_;
   sensor::SensorFrames frames_;
+  sensor::LidarFrames lidar_frames_;
 };
 
 }  // namespace

@@ -112,6 +112,17 @@ std::function<void(Recording&)> integer_times(double per_second) {
   };
 }
 
+/// As the drivers of two LiDARs name their frames.
+void frames_by_turns(Recording& recording) {
+  bool left = false;
+  for (Recorded& one : recording) {
+    const auto* scan = std::get_if<Scan>(&one.sample);
+    if (scan == nullptr) continue;
+    left = !left;
+    one.cdr = ros_codec::encode(*scan, left ? "left" : "right");
+  }
+}
+
 /// `ros2 bag play --loop`, recorded: the whole drive comes a second time, with the same stamps.
 void played_twice(Recording& recording) {
   const Duration later = recording.back().received - recording.front().received + std::chrono::seconds(1);
@@ -209,6 +220,7 @@ std::vector<Spoilt> of_lidar() {
          keep_if<Scan>([&](std::size_t, double) { return arrivals() % 6 == 0; })(recording);
        },
        "scans are missing"},
+      corrected({"two_frames_on_one_topic", frames_by_turns, "two LiDARs publish on it"}),
       {"points_without_range", points([random](sensor::ScanPoint& point) mutable {
          if (random() % 5 == 0) point.position.setConstant(random() % 2 == 0 ? 0.0f : kNan);
        }),
