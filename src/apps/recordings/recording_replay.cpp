@@ -94,10 +94,10 @@ Status check_readers(const config::RobotConfig& robot, const std::vector<std::si
     return failure("no agent listens on " + domain +
                    "; start the agent first, with the same dds.onboard.domain");
   }
-  return failure(
-      "an agent on " + domain + " reads " + read + ", but nobody reads " + unread +
-      "; the agent's file names them otherwise, or it uses no GPS: give replay the agent's own file "
-      "with -c, or the same names with --set");
+  const bool only_fixes = unread.ends_with("(topics.fix)") && unread.find(", ") == std::string::npos;
+  return failure("an agent on " + domain + " reads " + read + ", but nobody reads " + unread +
+                 "; the agent " + (only_fixes ? "has gps.use: false or another name" : "has another name") +
+                 " for it: give replay the agent's own file with -c, or the same with --set");
 }
 
 CommandResult<Replay> replay_of(const ReplayOptions& options) {

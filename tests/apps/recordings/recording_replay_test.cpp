@@ -67,8 +67,12 @@ TEST_F(RecordingReplayTest, TopicsThatNobodyReadsAreNamedApartFromAMissingAgent)
   EXPECT_THAT(
       other_name.error().message,
       HasSubstr("an agent on onboard domain 41 reads /points, /fix, /wheel_odometry, but nobody reads"));
-  EXPECT_THAT(other_name.error().message, HasSubstr("nobody reads /imu/data (topics.imu); "));
-  EXPECT_FALSE(check_readers(robot, {1, 1, 0, 1}));
+  EXPECT_THAT(other_name.error().message,
+              HasSubstr("nobody reads /imu/data (topics.imu); the agent has another name for it"));
+  const Status no_fixes = check_readers(robot, {1, 1, 0, 1});
+  ASSERT_FALSE(no_fixes);
+  EXPECT_THAT(no_fixes.error().message,
+              HasSubstr("nobody reads /fix (topics.fix); the agent has gps.use: false or"));
   robot.agent.perception.uses_gps = false;
   EXPECT_TRUE(check_readers(robot, {1, 1, 0, 1}));
 }
