@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   app.add_subcommand("completion", "prints a script that completes the command line in bash")->callback([&] {
     std::cout << bash_completion(app);
   });
+  drop_empty_defaults(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

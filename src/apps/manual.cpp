@@ -32,11 +32,10 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// The value of an option that is not given; empty where there is none to name, as of flags and empty lists.
+/// The value of an option that is not given; empty where there is none to name, as of flags.
 std::string default_of(const CLI::Option& option) {
   const std::string value = option.get_default_str();
-  const bool named = option.get_items_expected_max() > 0 && !option.get_required() && !value.empty() &&
-                     value != "[]" && value != "{}" && value != "\"\"";
+  const bool named = option.get_items_expected_max() > 0 && !option.get_required() && !value.empty();
   return named ? " (default: " + value + ")" : "";
 }
 
@@ -125,6 +124,14 @@ std::string table(const std::string& name, const std::map<std::string, std::stri
 }
 
 }  // namespace
+
+void drop_empty_defaults(CLI::App& program) {
+  for (CLI::Option* option : program.get_options({})) {
+    const std::string value = option->get_default_str();
+    if (value == "[]" || value == "{}" || value == "\"\"") option->default_str("");
+  }
+  for (CLI::App* command : program.get_subcommands({})) drop_empty_defaults(*command);
+}
 
 std::string man_page(const CLI::App& program) {
   const std::string& name = program.get_name();
