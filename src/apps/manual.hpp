@@ -12,7 +12,8 @@ namespace fleetmap::apps {
 /// it, with the defaults that they captured; the exit codes.
 std::string man_page(const CLI::App& program);
 
-/// Removes captured defaults that state nothing, of empty lists and paths, also from the help of all commands.
+/// Removes captured defaults that state nothing, of empty lists and paths, also from the help of all
+/// commands.
 void drop_empty_defaults(CLI::App& program);
 
 /// A script for bash that completes the program's commands, its options after a dash, and the values of
