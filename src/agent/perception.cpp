@@ -174,6 +174,9 @@ void Perception::watch_clock(sensor::Source source, Stamp stamp) {
 void Perception::on_scan(const Bytes& cdr) {
   last_sample_ = last_scan_ = bus_.now();
   ++counters_.scans;
+  if (const auto frame = ros_codec::frame_id_of(cdr)) {
+    if (auto news = lidar_frames_.add(*frame)) health_.add_finding(std::move(*news));
+  }
   if (!placed(sensor::Source::kLidar, cdr)) return;
   // One without a stamp is refused when it is decoded.
   if (const auto stamp = ros_codec::stamp_of_points(cdr, config_.topics.points_type))

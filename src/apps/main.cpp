@@ -17,6 +17,7 @@ int run(int argc, char** argv) {
   CLI::App app{"fleetmap: a team of ground robots maps a large site together, without a server", "fleetmap"};
   app.require_subcommand(1);
   app.fallthrough();
+  app.option_defaults()->always_capture_default();  // for the help and the man page
   app.set_version_flag("--version", kVersion);
   std::string log_level = "info";
   app.add_option("--log", log_level, "trace, debug, info, warn, error or off")
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
   app.add_subcommand("completion", "prints a script that completes the command line in bash")->callback([&] {
     std::cout << bash_completion(app);
   });
+  drop_empty_defaults(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,10 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <sstream>
+#include <utility>
 #include <vector>
+
+#include "command_result.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -28,6 +32,13 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// The value of an option that is not given; empty where there is none to name, as of flags.
+std::string default_of(const CLI::Option& option) {
+  const std::string value = option.get_default_str();
+  const bool named = option.get_items_expected_max() > 0 && !option.get_required() && !value.empty();
+  return named ? " (default: " + value + ")" : "";
+}
+
 std::string man_options(const CLI::App& app) {
   std::string page;
   for (const CLI::Option* option : app.get_options()) {
@@ -36,8 +47,22 @@ std::string man_options(const CLI::App& app) {
         option->get_positional() ? option->get_name(true) : option->get_name(false, true);
     const std::string type = option->get_items_expected_max() > 0 ? " " + option->get_type_name() : "";
     page += ".TP\n\\fB" + escaped(name) + "\\fR" + escaped(type) + "\n" + escaped(option->get_description());
-    page += option->get_required() ? " (required)\n" : "\n";
+    page += option->get_required() ? " (required)\n" : escaped(default_of(*option)) + "\n";
   }
+  return page;
+}
+
+std::string man_exit_status() {
+  constexpr std::array<std::pair<ExitCode, const char*>, 4> kMeanings{
+      {{kDone, "done"},
+       {kFailed,
+        "failed; or done, and what was asked for is not sound: a check has findings, the odometry lost its "
+        "way, or parts of a recording are damaged and the results lack them"},
+       {kUsage, "wrong usage: an option or value that there is not"},
+       {kBadConfiguration, "the configuration has errors, each named with file and line"}}};
+  std::string page = ".SH EXIT STATUS\n";
+  for (const auto& [code, meaning] : kMeanings)
+    page.append(".TP\n\\fB").append(std::to_string(code)).append("\\fR\n").append(meaning).append("\n");
   return page;
 }
 
@@ -100,6 +125,14 @@ std::string table(const std::string& name, const std::map<std::string, std::stri
 
 }  // namespace
 
+void drop_empty_defaults(CLI::App& program) {
+  for (CLI::Option* option : program.get_options({})) {
+    const std::string value = option->get_default_str();
+    if (value == "[]" || value == "{}" || value == "\"\"") option->default_str("");
+  }
+  for (CLI::App* command : program.get_subcommands({})) drop_empty_defaults(*command);
+}
+
 std::string man_page(const CLI::App& program) {
   const std::string& name = program.get_name();
   std::string title = name;
@@ -110,7 +143,7 @@ std::string man_page(const CLI::App& program) {
   return ".TH " + title + " 1\n.SH NAME\n" + name + " \\- " +
          escaped(colon == std::string::npos ? description : description.substr(colon + 2)) +
          "\n.SH SYNOPSIS\n\\fB" + name + "\\fR [OPTIONS] COMMAND\n.SH OPTIONS\n" + man_options(program) +
-         man_commands(program, name);
+         man_commands(program, name) + man_exit_status();
 }
 
 std::string bash_completion(const CLI::App& program) {

@@ -49,10 +49,6 @@ std::uint16_t tenths_of_mm(double metres) {
       std::clamp(std::round(metres * 1e4), 0.0, double{std::numeric_limits<std::uint16_t>::max()}));
 }
 
-bool on_this_machine(const std::string& peer, const bus::DdsLinkConfig& link) {
-  return peer.starts_with("127.") || (!link.address.empty() && peer == link.address);
-}
-
 }  // namespace
 
 bus::FleetSettings fleet_settings(const agent::AgentConfig& config) {
@@ -72,15 +68,15 @@ std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds,
     const std::size_t robots = (long_range ? exchange.all_on_radio() : exchange.fleet).size();
     if (!radio.enabled || radio.participants_per_peer > 1) continue;
     const bool elsewhere = !radio.address.empty() && !radio.address.starts_with("127.");
-    std::set<std::string> peers;
-    bool several_here = false;
-    for (const std::string& peer : radio.peers) {
-      several_here = several_here || on_this_machine(peer, radio);
-      peers.insert(peer);
-    }
-    if (!elsewhere || several_here || peers.size() + 1 >= robots) continue;
+    const std::set<std::string> named(radio.peers.begin(), radio.peers.end());
+    const bool own = named.contains(radio.address);
+    const std::size_t others = named.size() - (own ? 1 : 0);
+    const bool several_here =
+        std::ranges::any_of(named, [](const auto& one) { return one.starts_with("127."); });
+    if (!elsewhere || several_here || others + 1 >= robots) continue;
     warnings.push_back(std::string("dds.") + bus::to_string(link) + ".peers names " +
-                       std::to_string(peers.size()) + " of the " + std::to_string(robots - 1) +
+                       (own ? radio.address + ", the address of this robot itself, and " : "") +
+                       std::to_string(others) + " of the " + std::to_string(robots - 1) +
                        (long_range ? " other robots on this radio" : " other robots of the fleet") +
                        "; who is not named is found only if its own file names "
                        "this robot: give the address of each");

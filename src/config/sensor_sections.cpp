@@ -224,7 +224,7 @@ void read_gps(Section& top, agent::PerceptionConfig& perception) {
   if (!perception.uses_gps && devices.mavlink && devices.mavlink_gps)
     gps.problem("use", "the autopilot's GPS is used; set mavlink.gps: false as well");
   read_geoid(gps, devices);
-  gps.read("translation", ekf.mounting.p_base_antenna);
+  gps.read_lever_arm("translation", ekf.mounting.p_base_antenna);
   perception.mount_configured[static_cast<std::size_t>(sensor::Source::kGps)] = gps.has("translation");
   gps.read("correlation_time", ekf.gps.correlation_time);
   gps.read("correlated_share", ekf.gps.correlated_share);

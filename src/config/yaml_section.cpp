@@ -21,6 +21,8 @@ std::string text_of(const YAML::Node& node) {
   return emitter.c_str();
 }
 
+constexpr double kLongestLeverArm = 20.0;  // m, more than any ground robot's length
+
 /// Keys that had another name in earlier versions: former name, present name.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kRenamed{{
     {"encounters", "loop_candidates"},
@@ -202,11 +204,18 @@ void Section::read_seconds(const std::string& key, std::chrono::nanoseconds& val
   value = std::chrono::nanoseconds(std::llround(seconds * 1e9));
 }
 
+void Section::read_lever_arm(const std::string& key, Eigen::Vector3d& value) {
+  read(key, value);
+  if (has(key) && value.norm() > kLongestLeverArm)
+    problem(key, "expected at most 20 m from base_link, and metres as its unit");
+}
 void Section::read_mount(Pose& T_base_sensor) {
   Eigen::Vector3d translation = T_base_sensor.translation();
-  read("translation", translation);
+  read_lever_arm("translation", translation);
   T_base_sensor.translation() = translation;
   if (const auto rpy = numbers("rotation_rpy_deg", 3)) {
+    if (std::ranges::any_of(*rpy, [](double angle) { return std::abs(angle) > 360.0; }))
+      problem("rotation_rpy_deg", "expected roll, pitch and yaw of -360 to 360 degrees");
     T_base_sensor.linear() = rotation_from_rpy((*rpy)[0] * kDegree, (*rpy)[1] * kDegree, (*rpy)[2] * kDegree);
   }
 }

@@ -45,6 +45,8 @@ class Section {
   void read_degrees(const std::string& key, double& value_rad);
   void read_degrees(const std::string& key, std::vector<double>& values_rad);
   void read_seconds(const std::string& key, std::chrono::nanoseconds& value);
+  /// A sensor's place in base_link, m; one that no robot has is a problem.
+  void read_lever_arm(const std::string& key, Eigen::Vector3d& value);
   /// `translation` (m) and `rotation_rpy_deg` of a sensor in base_link.
   void read_mount(Pose& T_base_sensor);
   /// A list of exactly `size` numbers, or of any number of them.

@@ -29,6 +29,8 @@ class BagFile {
   virtual Result<std::optional<BagMessage>> next() = 0;
   /// Parts of the file that could not be read and were left out, so far.
   virtual std::uint64_t damaged_parts() const { return 0; }
+  /// The first of these and its cause, with the file's name; empty if there is none.
+  virtual std::string damage() const { return {}; }
 };
 
 /// Opens a .db3, .mcap or (ROS 1) .bag file; one with .zstd behind its name is unpacked into the folder for

@@ -11,6 +11,7 @@
 #include "fleetmap/ros_codec/points_type.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
+#include "fleetmap/sensor/lidar_frames.hpp"
 #include "packet_reader.hpp"
 #include "unpack.hpp"
 
@@ -70,10 +71,7 @@ class BagReader : public PacketReader {
  public:
   BagReader(std::string source, std::vector<fs::path> files, std::map<std::string, Kind> kinds,
             ScanContent content)
-      : PacketReader(std::move(source), content),
-        files_(std::move(files)),
-        kinds_(std::move(kinds)),
-        content_(content) {}
+      : PacketReader(std::move(source), content), files_(std::move(files)), kinds_(std::move(kinds)) {}
 
   Result<std::optional<Sample>> next() override {
     while (true) {
@@ -107,14 +105,17 @@ class BagReader : public PacketReader {
       file_ = std::move(*file);
     }
     const auto message = file_->next();
+    if (message && *message) return sample_in(**message);
+    count_damage();
     if (!message) return tl::unexpected(message.error());
-    if (!*message) {
-      if (const std::uint64_t parts = file_->damaged_parts())
-        skip(&Counters::damaged_parts, "parts of a file are damaged", parts);
-      file_.reset();
-      return std::optional<Sample>();
-    }
-    return sample_in(**message);
+    file_.reset();
+    return std::optional<Sample>();
+  }
+
+  void count_damage() {
+    if (file_->damaged_parts() == 0) return;
+    counters_.damaged_parts += file_->damaged_parts();
+    warn(file_->damage());
   }
 
   Result<std::optional<Sample>> sample_in(const BagMessage& message) {
@@ -146,7 +147,7 @@ class BagReader : public PacketReader {
         note_frame(sensor::Source::kLidar, cdr);
         const auto type =
             kind == Kind::kLivox ? ros_codec::PointsType::kLivoxDriver2 : ros_codec::PointsType::kPointCloud2;
-        if (content_ == ScanContent::kStampOnly) {
+        if (stamps_only()) {
           const auto stamp = ros_codec::stamp_of_points(cdr, type);
           if (!stamp) return undecodable(topic, stamp.error());
           sensor::Scan scan;
@@ -196,7 +197,14 @@ class BagReader : public PacketReader {
 
   void note_frame(sensor::Source source, ByteView cdr) {
     std::string& id = frames_.ids[static_cast<std::size_t>(source)];
-    if (id.empty()) id = ros_codec::frame_id_of(cdr).value_or(std::string());
+    if (!id.empty() && source != sensor::Source::kLidar) return;
+    const std::string named = ros_codec::frame_id_of(cdr).value_or(std::string());
+    if (id.empty()) id = named;
+    if (source != sensor::Source::kLidar) return;
+    if (const auto finding = lidar_frames_.add(named)) {
+      warn(*finding);
+      add_finding(*finding);
+    }
   }
 
   void add_transforms(ByteView cdr, const std::string& topic) {
@@ -218,12 +226,12 @@ class BagReader : public PacketReader {
 
   std::vector<fs::path> files_;
   std::map<std::string, Kind> kinds_;
-  ScanContent content_;
   std::size_t next_file_ = 0;
   std::unique_ptr<BagFile> file_;
   bool ended_ = false;
   std::optional<Stamp> recorded_;
   sensor::SensorFrames frames_;
+  sensor::LidarFrames lidar_frames_;
 };
 
 }  // namespace

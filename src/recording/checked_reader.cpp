@@ -1,6 +1,9 @@
 #include "checked_reader.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+
+#include <algorithm>
 
 namespace fleetmap::recording {
 namespace {
@@ -64,9 +67,16 @@ Stamp stamp_of(const Sample& sample) {
 
 void CheckedReader::skip(std::uint64_t Counters::*reason, const std::string& what, std::uint64_t count) {
   counters_.*reason += count;
-  if (logged_.insert(name_of(reason)).second) {
-    spdlog::warn("{}: {}: {} (further ones are only counted)", source_, name_of(reason), what);
-  }
+  if (!logged_.insert(name_of(reason)).second) return;
+  warn(std::string(name_of(reason)).append(": ").append(what).append(" (further ones are only counted)"));
+}
+
+void CheckedReader::warn(const std::string& news) const {
+  if (!stamps_only()) spdlog::warn("{}: {}", source_, news);
+}
+
+void CheckedReader::add_finding(const std::string& finding) {
+  if (std::ranges::find(findings_, finding) == findings_.end()) findings_.push_back(finding);
 }
 
 bool CheckedReader::admit(const Sample& sample) {
@@ -84,9 +94,15 @@ bool CheckedReader::admit(const Sample& sample) {
                                           std::to_string(to_seconds(*last.admitted)) + " s");
       return false;
     }
-    ++counters_.clocks_set_back;
-    spdlog::warn("{}: the clock of the {} samples was set back by {:.2f} s", source_, kKinds[sample.index()],
-                 to_seconds(*last.admitted - stamp));
+    const std::string news = fmt::format("the clock of the {} samples was set back by {:.2f} s",
+                                         kKinds[sample.index()], to_seconds(*last.admitted - stamp));
+    warn(news);
+    if (++counters_.clocks_set_back == 1) {  // the other sensors' follow
+      add_finding(
+          news +
+          ": it was set while it was recorded, or a recording was played in a loop. The map begins anew "
+          "there; record again, or use the parts apart");
+    }
   }
   last = {.admitted = stamp, .skipped = std::nullopt, .set_back = 0};
   ++(counters_.*kAdmitted[sample.index()]);
@@ -101,8 +117,10 @@ bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const st
   counters_.non_finite_points += decoded.non_finite_points;
   counters_.origin_points += decoded.origin_points;
   counters_.noise_points += decoded.noise_points;
-  if (const std::string finding = ros_codec::finding_of(decoded.time_unit); !finding.empty())
+  if (const std::string finding = ros_codec::finding_of(decoded.time_unit); !finding.empty()) {
     skip(&Counters::foreign_time_unit_scans, where + ": " + finding);
+    add_finding(finding);
+  }
   if (decoded.foreign_clock) {
     skip(&Counters::foreign_clock_scans, where +
                                              ": point times are far from the header's stamp; "

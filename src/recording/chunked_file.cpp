@@ -1,7 +1,5 @@
 #include "chunked_file.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -88,13 +86,18 @@ Result<Bytes> ChunkedFile::read(std::uint64_t at, std::uint64_t count) {
 }
 
 void ChunkedFile::leave_out(const std::string& why) {
-  if (damaged_++ == 0) spdlog::warn("{}: {}; it is left out, as will be others", file_.string(), why);
+  if (damaged_++ == 0) first_damage_ = why + "; it is left out, as will be others";
 }
 
 void ChunkedFile::note_cut(std::uint64_t at, const char* remedy) {
-  cut_ = true;
-  spdlog::warn("{}: its end is missing, {} bytes of a record that was cut are left out; {}", file_.string(),
-               size_ - at, remedy);
+  cut_ = "its end is missing, " + std::to_string(size_ - at) +
+         " bytes of a record that was cut are left out; " + remedy;
+}
+
+std::string ChunkedFile::damage() const {
+  if (damaged_parts() == 0) return {};
+  const char* between = damaged_ == 0 || cut_.empty() ? "" : "; ";
+  return file_.filename().string().append(": ").append(cut_).append(between).append(damaged_ == 0 ? "" : first_damage_);
 }
 
 }  // namespace fleetmap::recording

@@ -18,7 +18,8 @@ class ChunkedFile : public BagFile {
  public:
   Result<std::vector<BagTopic>> topics() override;
   Result<std::optional<BagMessage>> next() override;
-  std::uint64_t damaged_parts() const override { return damaged_ + (cut_ ? 1 : 0); }
+  std::uint64_t damaged_parts() const override { return damaged_ + (cut_.empty() ? 0 : 1); }
+  std::string damage() const override;
 
  protected:
   static constexpr std::uint64_t kMaxRecordBytes = 256u << 20;  ///< writers make chunks of some MB
@@ -51,9 +52,9 @@ class ChunkedFile : public BagFile {
   std::shared_ptr<const Bytes> block_of(Bytes bytes);
   void hold(std::shared_ptr<const Bytes> block, std::uint64_t time, std::uint32_t connection, ByteView data);
   Result<Bytes> read(std::uint64_t at, std::uint64_t count);
-  /// Counts a damaged part, and logs the first.
+  /// Counts a damaged part, and keeps the cause of the first.
   void leave_out(const std::string& why);
-  /// Counts and logs that the file ends within a record that begins at a byte, or before its last one.
+  /// Counts and keeps that the file ends within a record that begins at a byte, or before its last one.
   void note_cut(std::uint64_t at, const char* remedy);
 
   const std::filesystem::path& file() const { return file_; }
@@ -79,7 +80,8 @@ class ChunkedFile : public BagFile {
   std::multimap<std::uint64_t, Held> held_;   ///< by time
   Held current_;
   std::uint64_t damaged_ = 0;
-  bool cut_ = false;
+  std::string first_damage_;
+  std::string cut_;  ///< the cut and its remedy
 };
 
 }  // namespace fleetmap::recording

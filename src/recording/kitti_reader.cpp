@@ -143,8 +143,8 @@ class KittiReader : public CheckedReader {
     std::vector<Stamp> scan_stamps, oxts_stamps;
     bool motion_compensated = false;
   };
-  KittiReader(std::string source, Files files, const KittiConfig& config)
-      : CheckedReader(std::move(source)), config_(config), files_(std::move(files)) {
+  KittiReader(std::string source, Files files, const KittiConfig& config, ScanContent content)
+      : CheckedReader(std::move(source), content), config_(config), files_(std::move(files)) {
     if (config.fix_degradation) fix_error_.emplace(*config.fix_degradation);
     count_gaps();
   }
@@ -283,7 +283,7 @@ Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConf
   if (auto status = read_stamps(layout, files); !status) return tl::unexpected(status.error());
   // A recording is surveyed before it is read with points, which states the same.
   if (content == ScanContent::kPoints) log_assumptions(layout, files, config);
-  return std::make_unique<KittiReader>(path.string(), std::move(files), config);
+  return std::make_unique<KittiReader>(path.string(), std::move(files), config, content);
 }
 
 }  // namespace fleetmap::recording

@@ -19,8 +19,7 @@ class OusterReader : public CheckedReader {
  public:
   OusterReader(std::string source, ScanContent content, PcapFile file, DatagramStream lidar,
                const sensor::OusterMetadata& metadata)
-      : CheckedReader(std::move(source)),
-        content_(content),
+      : CheckedReader(std::move(source), content),
         file_(std::move(file)),
         lidar_(lidar),
         imu_{lidar.source, metadata.imu_port},
@@ -74,7 +73,7 @@ class OusterReader : public CheckedReader {
     if (!admit_points(decoded, "a turn")) return std::nullopt;
     Sample sample(std::move(decoded.scan));
     if (!admit(sample)) return std::nullopt;
-    if (content_ == ScanContent::kStampOnly) std::get<sensor::Scan>(sample).points.clear();
+    if (stamps_only()) std::get<sensor::Scan>(sample).points.clear();
     return sample;
   }
 
@@ -90,7 +89,6 @@ class OusterReader : public CheckedReader {
     if (more > 0) skip(&Counters::incomplete_sweeps, kIncompleteSweep, more);
   }
 
-  ScanContent content_;
   PcapFile file_;
   DatagramStream lidar_, imu_;
   sensor::OusterSensor sensor_;

@@ -24,7 +24,7 @@ std::optional<PacketReader::PacketScan> PacketReader::next_scan() {
     Sample sample(std::move(decoded.scan));
     if (!admit(sample)) continue;
     sensor::Scan& admitted = std::get<sensor::Scan>(sample);
-    if (content_ == ScanContent::kStampOnly) admitted.points.clear();
+    if (stamps_only()) admitted.points.clear();
     return PacketScan{std::move(admitted), recorded_};
   }
   return std::nullopt;

@@ -11,8 +11,7 @@ namespace fleetmap::recording {
 /// A reader of recordings that hold packets of a LiDAR, of which it makes scans.
 class PacketReader : public CheckedReader {
  public:
-  PacketReader(std::string source, ScanContent content)
-      : CheckedReader(std::move(source)), content_(content) {}
+  PacketReader(std::string source, ScanContent content) : CheckedReader(std::move(source), content) {}
 
  protected:
   struct PacketScan {
@@ -31,7 +30,6 @@ class PacketReader : public CheckedReader {
 
   sensor::VelodyneSweeps sweeps_;
   std::optional<Stamp> recorded_;
-  ScanContent content_;
 };
 
 }  // namespace fleetmap::recording

@@ -14,6 +14,11 @@ const sensor::SensorFrames& Reader::frames() const {
   return kNone;
 }
 
+const std::vector<std::string>& Reader::findings() const {
+  static const std::vector<std::string> kNone;
+  return kNone;
+}
+
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config,
                                      ScanContent content) {
   if (auto status = config.validate(); !status) return tl::unexpected(status.error());

@@ -33,6 +33,7 @@ constexpr double kNanosecondsBeyond = 1e12;  // a float time beyond this is in n
 
 constexpr double kShortestSweep = 5e-3, kLongestSweep = 1.0;  // s
 constexpr double kMiddleShare = 0.2;
+constexpr double kEarliestDate = 1e8, kDay = 86'400.0;  // s
 constexpr std::array kFloatUnits{std::pair{TimeUnit::kMilliseconds, 1e-3},
                                  std::pair{TimeUnit::kMicroseconds, 1e-6},
                                  std::pair{TimeUnit::kNanoseconds, 1e-9}};
@@ -153,6 +154,19 @@ TimeUnit unit_of_floats(std::vector<double> times, double span) {
   return TimeUnit::kUnclear;
 }
 
+/// Milli- or microseconds, if times from `earliest` on are of the stamp's day and a sweep in this unit. Units
+/// are a thousand apart, so a stamp since 1970 leaves one at most; nothing is concluded from a stamp since
+/// boot.
+std::optional<TimeUnit> unit_of_date(double earliest, double span, Stamp stamp) {
+  const double date = to_seconds(stamp);
+  for (const auto& [unit, seconds] : kFloatUnits) {
+    const bool same_day = date > kEarliestDate && std::abs(earliest * seconds - date) < kDay;
+    const bool sweep = span * seconds >= kShortestSweep && span * seconds <= kLongestSweep;
+    if (same_day && sweep && unit != TimeUnit::kNanoseconds) return unit;
+  }
+  return std::nullopt;
+}
+
 double seconds_of(TimeUnit unit, double as_defined) {
   for (const auto& [other, seconds] : kFloatUnits) {
     if (unit == other) return seconds;
@@ -177,6 +191,8 @@ void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, 
   // Floats that are relative to the stamp: the largest of them is about the sweep.
   if (field.is_float() && largest <= 2.0 * span) out.time_unit = unit_of_floats(times, span);
   if (out.time_unit == TimeUnit::kUnclear) return;
+  const auto dated = field.datatype == kFloat64 ? unit_of_date(earliest, span, stamp) : std::nullopt;
+  if (dated) out.time_unit = *dated;
   const double unit = seconds_of(out.time_unit, nanoseconds ? 1e-9 : 1.0);
   double zero = 0.0;
   if (times.size() > 1 && latest == earliest) return;  // a driver that leaves the field at a constant
@@ -184,9 +200,9 @@ void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, 
     if (field.datatype == kFloat32) return;  // cannot resolve a scan in absolute time
     // Absolute. The stamp in the field's unit has the field's own rounding, so the difference is exact
     // enough. Microseconds of 32 bits cannot count from 1970.
-    const double start = nanoseconds ? static_cast<double>(to_ns(stamp)) : to_seconds(stamp);
-    out.foreign_clock =
-        out.time_unit != TimeUnit::kAsDefined || std::abs(earliest - start) * unit > kMaxScanSeconds;
+    const double start = nanoseconds && !dated ? static_cast<double>(to_ns(stamp)) : to_seconds(stamp) / unit;
+    const bool undated = out.time_unit != TimeUnit::kAsDefined && !dated;
+    out.foreign_clock = undated || std::abs(earliest - start) * unit > kMaxScanSeconds;
     zero = out.foreign_clock ? earliest : start;
   }
   if (span * unit > kMaxScanSeconds) return;  // not the time within one scan

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/bus/local_network.hpp"
@@ -49,12 +51,14 @@ class PerceptionFindings : public ::testing::Test {
     sensor::Scan scan;
     scan.stamp = network_->now();
     scan.points.push_back({{1.0f, 2.0f, 3.0f}});
-    bus_->publish(ros_codec::topics::points(), ros_codec::encode(scan, "velodyne"));
+    bus_->publish(ros_codec::topics::points(), ros_codec::encode(scan, lidars_[scans_++ % lidars_.size()]));
   }
   const sensor::SensorHealth& health() const { return perception_->health(); }
 
   PerceptionConfig config_;
   Duration imu_clock_{};
+  std::vector<std::string> lidars_{"velodyne"};  ///< frames, by turns
+  std::size_t scans_ = 0;
   std::unique_ptr<bus::LocalNetwork> network_;
   bus::Bus* bus_ = nullptr;
   std::unique_ptr<Perception> perception_;
@@ -98,6 +102,13 @@ TEST_F(PerceptionFindings, AnUnknownMountIsOne) {
   EXPECT_THAT(health().alarms(),
               ElementsAre(AllOf(HasSubstr("LiDAR (frame 'velodyne'): its mount is unknown"),
                                 HasSubstr("it is taken to be at base_link"))));
+}
+
+TEST_F(PerceptionFindings, TwoLidarsOnOneTopicAreOne) {
+  lidars_ = {"front", "rear"};
+  run_for(2s);
+  EXPECT_THAT(health().alarms(),
+              ElementsAre(AllOf(HasSubstr("'front' and 'rear'"), HasSubstr("topics.points"))));
 }
 
 TEST_F(PerceptionFindings, ThoseOfTheRecordingComeFirst) {

@@ -23,6 +23,9 @@ class Manual : public ::testing::Test {
     CLI::App* run = program_.add_subcommand("run", "runs a file");
     run->add_option("file", text_, "what to run")->required();
     run->add_option("-n,--times", number_, "how often; -1: for ever\n.not a request");
+    run->add_option("--rate", rate_, "Hz")->capture_default_str();
+    run->add_option("--only", list_, "which")->capture_default_str();
+    run->add_flag("--quiet", quiet_, "no output")->capture_default_str();
     CLI::App* map = program_.add_subcommand("map", "maps");
     map->add_subcommand("info", "says what is there");
     map->add_subcommand("export", "writes it")
@@ -55,6 +58,9 @@ class Manual : public ::testing::Test {
 
   std::string text_;
   int number_ = 0;
+  double rate_ = -2.5;
+  bool quiet_ = false;
+  std::vector<std::string> list_;
   CLI::App program_{"tool: does things", "tool"};
 };
 
@@ -64,7 +70,7 @@ TEST_F(Manual, BashOffersTheCommandsAndOptionsThatMayFollow) {
   EXPECT_THAT(complete("tool map e"), ElementsAre("export"));
   EXPECT_THAT(complete("tool --log all map ex"), ElementsAre("export"));
   EXPECT_THAT(complete("tool map export --c"), ElementsAre("--crs"));
-  EXPECT_THAT(complete("tool run --"), ElementsAre("--help", "--times"));
+  EXPECT_THAT(complete("tool run --"), ElementsAre("--help", "--times", "--rate", "--only", "--quiet"));
   EXPECT_THAT(complete("tool -"), ElementsAre("-h", "--help", "--log"));
 }
 
@@ -90,6 +96,23 @@ TEST_F(Manual, ThePageHasEveryCommandAndOption) {
   EXPECT_THAT(page,
               HasSubstr("\\fB\\-n,\\-\\-times\\fR INT\nhow often; \\-1: for ever\n\\&.not a request\n"));
   EXPECT_THAT(page, Not(HasSubstr("secret")));
+}
+
+TEST_F(Manual, ThePageHasDefaultsWhereAnOptionHasOne) {
+  drop_empty_defaults(program_);
+  EXPECT_EQ(program_.get_subcommand("run")->get_option("--only")->get_default_str(), "");
+  const std::string page = man_page(program_);
+  EXPECT_THAT(page, HasSubstr("FLOAT\nHz (default: \\-2.5)\n"));
+  EXPECT_THAT(page, HasSubstr("\nwhich\n"));
+  EXPECT_THAT(page, HasSubstr("\nno output\n"));
+}
+
+TEST_F(Manual, ThePageEndsWithTheExitCodes) {
+  const std::string page = man_page(program_);
+  const auto section = page.find(".SH EXIT STATUS\n");
+  ASSERT_NE(section, std::string::npos);
+  for (const char* code : {"\\fB0\\fR\ndone\n", "\\fB1\\fR\nfailed", "\\fB2\\fR\n", "\\fB78\\fR\n"})
+    EXPECT_THAT(page.substr(section), HasSubstr(code));
 }
 
 }  // namespace

@@ -112,6 +112,17 @@ std::function<void(Recording&)> integer_times(double per_second) {
   };
 }
 
+/// As the drivers of two LiDARs name their frames.
+void frames_by_turns(Recording& recording) {
+  bool left = false;
+  for (Recorded& one : recording) {
+    const auto* scan = std::get_if<Scan>(&one.sample);
+    if (scan == nullptr) continue;
+    left = !left;
+    one.cdr = ros_codec::encode(*scan, left ? "left" : "right");
+  }
+}
+
 /// `ros2 bag play --loop`, recorded: the whole drive comes a second time, with the same stamps.
 void played_twice(Recording& recording) {
   const Duration later = recording.back().received - recording.front().received + std::chrono::seconds(1);
@@ -193,10 +204,11 @@ std::vector<Spoilt> of_lidar() {
        "its points are mirrored"},
       {"points_in_millimetres", points([](sensor::ScanPoint& point) { point.position *= 1000.0f; }),
        "millimetres"},
-      {"half_of_each_scan", each<Scan>([](Scan& scan) {
-         std::erase_if(scan.points, [](const sensor::ScanPoint& point) { return point.position.y() < 0.0f; });
-       }),
-       ""},
+      corrected({"half_of_each_scan", each<Scan>([](Scan& scan) {
+                   std::erase_if(scan.points,
+                                 [](const sensor::ScanPoint& p) { return p.position.y() < 0.0f; });
+                 }),
+                 "if the driver crops the cloud, ignore this"}),
       {"scans_dropped_5_of_6", keep_if<Scan>([](std::size_t k, double) { return k % 6 == 0; }),
        "scans are missing"},
       {"scans_at_half_rate", keep_if<Scan>([](std::size_t k, double) { return k % 2 == 0; }),
@@ -208,6 +220,7 @@ std::vector<Spoilt> of_lidar() {
          keep_if<Scan>([&](std::size_t, double) { return arrivals() % 6 == 0; })(recording);
        },
        "scans are missing"},
+      corrected({"two_frames_on_one_topic", frames_by_turns, "two LiDARs publish on it"}),
       {"points_without_range", points([random](sensor::ScanPoint& point) mutable {
          if (random() % 5 == 0) point.position.setConstant(random() % 2 == 0 ? 0.0f : kNan);
        }),

@@ -7,8 +7,10 @@
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "fleetmap/geometry/degree.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
@@ -32,6 +34,25 @@ const std::vector<std::string>& kMounted = testing::kGeneratedMount;
 
 using SpoiltRecording = testing::GeneratedDrive;
 
+std::vector<std::string> inspection_of(const std::filesystem::path& bag) {
+  std::vector<std::string> command{testing::kProgram, "inspect", bag.string()};
+  command.insert(command.end(), kMounted.begin(), kMounted.end());
+  return command;
+}
+
+/// The findings of `inspect` hold the cause that the odometry or the run names, else there is none.
+void expect_inspected(const Spoilt& spoilt, testing::Process& inspect) {
+  const int exit_code = inspect.wait();
+  std::istringstream lines(inspect.output());
+  std::string findings;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("- ")) findings.append(line).append("\n");
+  }
+  EXPECT_EQ(exit_code, spoilt.named.empty() ? 0 : 1) << inspect.output();
+  EXPECT_EQ(findings.empty(), spoilt.named.empty()) << inspect.output();
+  EXPECT_THAT(findings, HasSubstr(spoilt.named)) << inspect.output();
+}
+
 TEST_F(SpoiltRecording, IsAsGoodOrTheCauseIsNamed) {
   const Outcome good_odometry = odometry("good", good_), good_place = run("good", good_);
   for (const Outcome& good : {good_odometry, good_place}) {
@@ -44,6 +65,8 @@ TEST_F(SpoiltRecording, IsAsGoodOrTheCauseIsNamed) {
     SCOPED_TRACE(spoilt.name);
     Recording recording = good_;
     spoilt.spoil(recording);
+    const std::filesystem::path bag = write(spoilt.name + "_inspected", recording);
+    testing::Process inspect(inspection_of(bag));  // beside the other process
     const Outcome outcome = spoilt.in_place ? run(spoilt.name, recording) : odometry(spoilt.name, recording);
     const double worse =
         spoilt.in_place ? outcome.place / good_place.place : outcome.shape / good_odometry.shape;
@@ -56,7 +79,33 @@ TEST_F(SpoiltRecording, IsAsGoodOrTheCauseIsNamed) {
     if (spoilt.corrected || converted || (spoilt.named.empty() && outcome.exit_code == 0)) {
       EXPECT_LE(worse, kWorse) << outcome.output;
     }
+    expect_inspected(spoilt, inspect);
+    std::filesystem::remove_all(bag);
   }
+}
+
+/// The reader, the survey and the search for the first fix open the file.
+TEST_F(SpoiltRecording, AFileThatWasCutIsReadToItsEndWhichIsNamedOnceAndFails) {
+  const std::filesystem::path bag = write("cut", good_), tum = folder_->path() / "cut.tum";
+  for (const auto& entry : std::filesystem::directory_iterator(bag)) {
+    if (entry.path().extension() == ".mcap")
+      std::filesystem::resize_file(entry.path(), entry.file_size() * 3 / 4);
+  }
+  const std::filesystem::path out = folder_->path() / "cut_out";
+  testing::Process odometry({testing::kProgram, "odometry", bag.string(), "--out", tum.string()});
+  testing::Process run(
+      {testing::kProgram, "run", "--recording", "r1=" + bag.string(), "--out", out.string()});
+  for (testing::Process* process : {&odometry, &run}) {
+    EXPECT_EQ(process->wait(), 1) << process->output();
+    EXPECT_THAT(process->output(), HasSubstr("1 part of the recording is damaged or cut off"));
+    const std::string output = process->output(), news = "its end is missing";
+    const auto first = output.find(news);
+    EXPECT_NE(first, std::string::npos) << output;
+    EXPECT_EQ(output.find(news, first + 1), std::string::npos) << output;
+  }
+  EXPECT_GT(output::read_growing_tum(tum).value().size(), good_.size() / 30);
+  EXPECT_TRUE(std::filesystem::exists(out / "r1/map.ply"));
+  EXPECT_TRUE(std::filesystem::exists(out / "report.json"));
 }
 
 TEST_F(SpoiltRecording, FindingsAreInTheReport) {
@@ -80,16 +129,6 @@ TEST_F(SpoiltRecording, AMirroredLidarIsInTheReportOfARun) {
   std::ifstream file(folder_->path() / "mirrored_out/report.json");
   const auto report = nlohmann::json::parse(file);
   EXPECT_THAT(report["agents"]["r1"]["sensors"]["findings"].dump(), HasSubstr("its points are mirrored"));
-}
-
-TEST_F(SpoiltRecording, InspectNamesTheCauseAndFails) {
-  Recording swift = good_;
-  testing::each<sensor::Wheel>([](sensor::Wheel& wheel) { wheel.forward_speed *= 3.6; })(swift);
-  std::vector<std::string> command{testing::kProgram, "inspect", write("swift", swift).string()};
-  command.insert(command.end(), kMounted.begin(), kMounted.end());
-  testing::Process inspect(command);
-  EXPECT_EQ(inspect.wait(), 1);
-  EXPECT_THAT(inspect.output(), HasSubstr("km/h"));
 }
 
 /// The first check of the stamps is over long before.

@@ -248,8 +248,11 @@ TEST_F(FleetConfigTest, PeersThatCannotBeAllOfTheFleetAreAWarning) {
   EXPECT_THAT(peer_warnings(dds, fleet_of_four(3)), ::testing::IsEmpty());
   EXPECT_THAT(peer_warnings(dds, four),
               ::testing::ElementsAre(HasSubstr("dds.long_range.peers names 2 of the 3 other robots")));
-  dds.long_range.peers.push_back("10.0.0.1");  // where any number may be
-  EXPECT_THAT(peer_warnings(dds, four), ::testing::IsEmpty());
+  dds.long_range.peers.push_back("10.0.0.1");
+  EXPECT_THAT(
+      peer_warnings(dds, four),
+      ::testing::ElementsAre(HasSubstr("peers names 10.0.0.1, the address of this robot itself, and 2 of")));
+  EXPECT_THAT(peer_warnings(dds, fleet_of_four(3)), ::testing::IsEmpty()) << "a list for all robots";
   dds.long_range.peers.clear();
   EXPECT_THAT(peer_warnings(dds, four), ::testing::SizeIs(1));
   dds.long_range.enabled = false;

@@ -44,6 +44,17 @@ TEST(SensorSections, PointsMayBeOfALivoxDriver) {
                         "expected one of sensor_msgs/msg/PointCloud2"));
 }
 
+TEST(SensorSections, AMountThatNoRobotHasIsRefused) {
+  const auto problems = [](const std::string& yaml) { return perception_of(yaml).problems; };
+  EXPECT_EQ(problems("lidar: {translation: [-12, 0, 15.9], rotation_rpy_deg: [-180, 0, 360]}\n"), "");
+  EXPECT_THAT(problems("lidar:\n  translation: [0, 0, 350]\n"),
+              HasSubstr("robot.yaml:2: lidar.translation: expected at most 20 m from base_link, and metres"));
+  EXPECT_THAT(problems("gps:\n  translation: [0, -21, 0]\n"), HasSubstr("robot.yaml:2: gps.translation: "));
+  EXPECT_THAT(problems("imu:\n  rotation_rpy_deg: [1000, 0, 0]\n"),
+              HasSubstr("robot.yaml:2: imu.rotation_rpy_deg: expected roll, pitch and yaw of -360 to 360"));
+  EXPECT_THAT(problems("imu:\n  translation: [.nan, 0, 0]\n"), HasSubstr("robot.yaml:2: imu.translation: "));
+}
+
 TEST(SensorSections, TheLidarIsAModelWithItsMountAndRanges) {
   const PerceptionReading r = perception_of(
       "lidar: {model: os1-64, translation: [0.1, 0, 0.35], rotation_rpy_deg: [0, 0, 90], max_range: 55,\n"

@@ -40,6 +40,7 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   const auto state = nlohmann::json::parse(state_json(fleet.view));
 
   EXPECT_NEAR(state["origin"]["latitude_deg"], 49.0, 1e-9);
+  EXPECT_EQ(state["begin_s"], to_seconds(fleet.view.nodes[0].stamp));
   ASSERT_EQ(state["nodes"].size(), 5u);
   EXPECT_EQ(state["nodes"][2]["id"], "r1/2");
   EXPECT_EQ(state["nodes"][2]["T"], nlohmann::json({8.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "bus/captured_log.hpp"
 #include "recording/timed_samples.hpp"
 
 namespace fleetmap::recording {
@@ -17,7 +18,7 @@ using ::testing::ElementsAre;
 /// Offers its checks alone.
 class Checks : public CheckedReader {
  public:
-  Checks() : CheckedReader("drive") {}
+  explicit Checks(ScanContent content = ScanContent::kPoints) : CheckedReader("drive", content) {}
   Result<std::optional<Sample>> next() override { return std::optional<Sample>(); }
   using CheckedReader::admit;
   using CheckedReader::admit_points;
@@ -89,8 +90,24 @@ TEST(CheckedReader, AScanWithoutReturnsIsLeftOut) {
   EXPECT_TRUE(checks.admit_points(scan, "a scan"));
   EXPECT_EQ(checks.counters().non_finite_points, 10u);
   EXPECT_EQ(checks.counters().origin_points, 14u);
-  EXPECT_EQ(checks.counters().foreign_time_unit_scans, 1u);
-  EXPECT_EQ(checks.counters().foreign_clock_scans, 1u);
+  EXPECT_TRUE(checks.admit_points(scan, "another scan"));
+  EXPECT_EQ(checks.counters().foreign_time_unit_scans, 2u);
+  EXPECT_EQ(checks.findings(), std::vector{ros_codec::finding_of(ros_codec::TimeUnit::kMicroseconds)});
+  EXPECT_EQ(checks.counters().foreign_clock_scans, 2u);
+}
+
+TEST(CheckedReader, OneOfStampsOnlyCountsAndLogsNothing) {
+  for (const ScanContent content : {ScanContent::kPoints, ScanContent::kStampOnly}) {
+    bus::testing::CapturedLog log;
+    Checks checks(content);
+    checks.skip(&Counters::damaged_parts, "a part");
+    checks.imus({100s, 1s, 2s, 3s});
+    EXPECT_EQ(checks.counters().damaged_parts + checks.counters().clocks_set_back, 2u);
+    EXPECT_THAT(checks.findings(),
+                ElementsAre(::testing::HasSubstr("imu samples was set back by 97.00 s: ")));
+    EXPECT_EQ(log.count("drive: damaged_parts: a part") + log.count("set back by"),
+              content == ScanContent::kPoints ? 2 : 0);
+  }
 }
 
 TEST(CheckedReader, CountersHaveTheirNames) {

@@ -23,6 +23,8 @@ class Chunks : public ChunkedFile {
     name_topic(0, topic_);
   }
   std::size_t loaded() const { return loaded_; }
+  using ChunkedFile::leave_out;
+  using ChunkedFile::note_cut;
 
  private:
   Status load(const Found& found) override {
@@ -57,6 +59,23 @@ TEST(ChunkedFile, GivesMessagesOfOverlappingChunksByTimeAndLoadsNoneTooEarly) {
   }
   EXPECT_EQ(times, (Times{2, 4, 6, 8, 20, 22, 30}));
   EXPECT_EQ(loaded, (std::vector<std::size_t>{1, 1, 2, 2, 3, 3, 3}));
+}
+
+TEST(ChunkedFile, KeepsTheFirstDamageAndTheCut) {
+  const fleetmap::testing::TemporaryFolder folder;
+  const auto path = folder.write("f", "");
+  Chunks sound(path, {{2}});
+  EXPECT_EQ(sound.damage(), "");
+  Chunks cut(path, {{2}});
+  cut.note_cut(0, "copy it again");
+  EXPECT_EQ(cut.damage(),
+            "f: its end is missing, 0 bytes of a record that was cut are left "
+            "out; copy it again");
+  EXPECT_EQ(cut.damaged_parts(), 1u);
+  cut.leave_out("a chunk");
+  cut.leave_out("another chunk");
+  EXPECT_EQ(cut.damaged_parts(), 3u);
+  EXPECT_TRUE(cut.damage().ends_with("copy it again; a chunk; it is left out, as will be others"));
 }
 
 TEST(ChunkedFile, LeavesOutWhatNoTopicNamesAndEndsAfterAnError) {

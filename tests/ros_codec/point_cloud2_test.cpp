@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 #include <random>
+#include <tuple>
 
 #include "fleetmap/bus/cdr.hpp"
 #include "sensor_msgs.h"
@@ -305,6 +306,23 @@ TEST(PointCloud2, FloatTimesOfASweepInOneUnitAloneAreConverted) {
       EXPECT_NEAR(decoded->scan.points[1].time, 0.05, 1e-6);
       EXPECT_EQ(finding_of(unit).empty(), unit == kAsDefined);
     }
+  }
+}
+
+TEST(PointCloud2, DatesInMilliAndMicrosecondsAreConverted) {
+  using enum TimeUnit;
+  constexpr double kStamp = 1.7e9, kAnHourAhead = kStamp + 3600.0, kSinceBoot = 5.4e4;
+  for (const auto& [zero, scale, unit] :
+       {std::tuple{kStamp, 1.0, kAsDefined}, std::tuple{kStamp, 1e3, kMilliseconds},
+        std::tuple{kStamp, 1e6, kMicroseconds}, std::tuple{kStamp, 1e9, kAsDefined},
+        std::tuple{kAnHourAhead, 1e3, kMilliseconds}, std::tuple{kSinceBoot, 1e9, kAsDefined}}) {
+    auto m = with_time("timestamp", kFloat64,
+                       {(zero + 0.02) * scale, (zero + 0.07) * scale, (zero + 0.12) * scale});
+    m.header().stamp().sec(static_cast<std::int32_t>(kStamp));
+    const DecodedScan decoded = read(m);
+    EXPECT_EQ(decoded.time_unit, unit) << zero << ' ' << scale;
+    EXPECT_EQ(decoded.foreign_clock, zero != kStamp) << zero << ' ' << scale;
+    EXPECT_NEAR(decoded.scan.points[1].time, zero == kStamp ? 0.07 : 0.05, 1e-5) << zero << ' ' << scale;
   }
 }
 

@@ -19,6 +19,7 @@
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
+#include "fleetmap/sensor/lidar_frames.hpp"
 #include "fleetmap/sensor/sensor_health.hpp"
 #include "fleetmap/sensor/turn_direction.hpp"
 
@@ -135,6 +136,7 @@ class Perception {
   localization::Ekf ekf_;
   sensor::ClockOffsets clock_offsets_;
   sensor::SensorHealth health_;
+  sensor::LidarFrames lidar_frames_;
   SensorMounts mounts_;
   std::optional<Eigen::Quaterniond> new_q_base_imu_;
   BoundedQueue<std::pair<Stamp, Bytes>> scans_;  ///< when they came, and as they came

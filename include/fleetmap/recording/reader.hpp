@@ -71,6 +71,8 @@ class Reader {
   /// The frames that the messages of a bag named so far.
   virtual const sensor::SensorFrames& frames() const;
   virtual const Counters& counters() const = 0;
+  /// Errors of a driver that the samples no longer show since they are corrected here, each with its remedy.
+  virtual const std::vector<std::string>& findings() const;
 };
 
 /// Opens a rosbag2 folder or a single file of one (.db3 or .mcap, plain, lz4 or zstd), a ROS 1 bag, a capture

@@ -41,9 +41,10 @@ struct DecodedScan {
 Bytes encode(const sensor::Scan& scan, std::string_view frame_id = "lidar");
 /// Reads a PointCloud2 of any driver: x, y, z float32 or float64 needed, in any order and at any offset;
 /// optional `intensity` of any numeric type; `ring` or `channel` (uint8, uint16, uint32); point time in
-/// `time`, `t`, `timestamp`, `offset_time` or `time_stamp` (float: s, or ns if beyond 1e12; integer: ns, or
-/// us if the sweep would take less than 1 ms), relative to the header's stamp or absolute. Refuses data that
-/// contradict height, width, point_step and row_step.
+/// `time`, `t`, `timestamp`, `offset_time` or `time_stamp` (float: s, or ns if beyond 1e12, or the unit in
+/// which alone they are a sweep after the stamp or on its day; integer: ns, or us if the sweep would take
+/// less than 1 ms), relative to the header's stamp or absolute. Refuses data that contradict height, width,
+/// point_step and row_step.
 Result<DecodedScan> decode_scan(ByteView cdr);
 
 template <>

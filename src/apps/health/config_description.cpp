@@ -13,6 +13,7 @@
 #include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/config/world_file.hpp"
 #include "fleetmap/experiment/case.hpp"
+#include "local_files.hpp"
 #include "robot/mission_setup.hpp"
 #include "twin/twin_setup.hpp"
 
@@ -39,7 +40,11 @@ Result<std::string> check_fleet(const std::string& file, const std::vector<confi
 Result<std::string> check_robot(const std::string& file, const std::vector<config::Override>& overrides) {
   auto robot = config::load_robot(file, overrides);
   if (!robot) return tl::unexpected(robot.error());
+  if (const Status local = check_local_files(robot->agent); !local)
+    return failure(file + ": " + local.error().message);
   if (const Status planned = plan_mission(*robot); !planned) return tl::unexpected(planned.error());
+  if (const auto warning = write_warning(robot->agent.directory))
+    std::cerr << file << ": warning: " << *warning << '\n';
   for (const std::string& warning : config::peer_warnings(robot->dds, robot->agent.exchange))
     std::cerr << file << ": warning: " << warning << '\n';
   if (!robot->mission) return std::string("a valid agent configuration");

@@ -12,16 +12,6 @@
 #include "silent_topics.hpp"
 
 namespace fleetmap::apps {
-namespace {
-
-Result<sensor::Scan> scan_in(const Bytes& cdr, ros_codec::PointsType type) {
-  auto decoded = ros_codec::decode_points(cdr, type);
-  if (!decoded) return tl::unexpected(std::move(decoded.error()));
-  return std::move(decoded->scan);
-}
-
-}  // namespace
-
 SensorListener::SensorListener(const agent::PerceptionConfig& config, bus::Bus& bus)
     : config_(config), bus_(bus), check_({}, config), odometry_(config, bus, check_), mounts_(config) {
   subscriptions_.push_back(bus.subscribe(ros_codec::topics::tf_static(), [this](const Bytes& cdr) {
@@ -30,9 +20,8 @@ SensorListener::SensorListener(const agent::PerceptionConfig& config, bus::Bus& 
     mounts_.add(*transforms);
   }));
   const std::vector<bus::Topic> topics = sensor_topics(config.topics);
-  subscriptions_.push_back(bus.subscribe(topics[0], [this, name = topics[0].name](const Bytes& cdr) {
-    add(scan_in(cdr, config_.topics.points_type), cdr, name);
-  }));
+  subscriptions_.push_back(
+      bus.subscribe(topics[0], [this, name = topics[0].name](const Bytes& cdr) { add_scan(cdr, name); }));
   listen<sensor::Imu>(topics[1]);
   listen<sensor::Fix>(topics[2]);
   listen<sensor::Wheel>(topics[3]);
@@ -65,6 +54,16 @@ template <class T>
 void SensorListener::listen(const bus::Topic& topic) {
   subscriptions_.push_back(bus_.subscribe(
       topic, [this, name = topic.name](const Bytes& cdr) { add(ros_codec::decode<T>(cdr), cdr, name); }));
+}
+
+void SensorListener::add_scan(const Bytes& cdr, const std::string& topic) {
+  auto decoded = ros_codec::decode_points(cdr, config_.topics.points_type);
+  if (!decoded) return add<sensor::Scan>(tl::unexpected(std::move(decoded.error())), cdr, topic);
+  if (auto finding = ros_codec::finding_of(decoded->time_unit); !finding.empty())
+    check_.add_finding(std::move(finding));
+  if (auto finding = lidar_frames_.add(ros_codec::frame_id_of(cdr).value_or("")))
+    check_.add_finding(std::move(*finding));
+  add<sensor::Scan>(std::move(decoded->scan), cdr, topic);
 }
 
 template <class T>

@@ -7,6 +7,7 @@
 #include "fleetmap/agent/perception_config.hpp"
 #include "fleetmap/agent/sensor_mounts.hpp"
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/sensor/lidar_frames.hpp"
 #include "live_odometry.hpp"
 #include "recordings/sample_check.hpp"
 #include "recordings/stream_summary.hpp"
@@ -36,6 +37,7 @@ class SensorListener {
  private:
   template <class T>
   void listen(const bus::Topic& topic);
+  void add_scan(const Bytes& cdr, const std::string& topic);
   template <class T>
   void add(Result<T> decoded, const Bytes& cdr, const std::string& topic);
   /// False while the sensor's mount is not known.
@@ -46,6 +48,7 @@ class SensorListener {
   SampleCheck check_;
   LiveOdometry odometry_;
   agent::SensorMounts mounts_;
+  sensor::LidarFrames lidar_frames_;
   StreamSummary streams_;
   std::map<std::string, std::size_t> refused_;  ///< by reason
   std::vector<bus::Handle> subscriptions_;

@@ -29,6 +29,9 @@ class RecordingFeed final : public FleetFeed {
   recording::Counters counters(std::size_t member) const override {
     return members_[member].reader->counters();
   }
+  std::vector<std::string> findings(std::size_t member) const override {
+    return members_[member].reader->findings();
+  }
   std::optional<bus::EnuPosition> position(std::size_t) const override { return std::nullopt; }
 
  private:

@@ -22,6 +22,7 @@ CommandResult<ExitCode> inspect_recording(const RecordingOptions& options, std::
                                  {[&](const recording::Sample& sample) { streams.add(sample); }, {}});
   if (!done) return exit_with(kFailed, done.error());
   std::vector<std::string> findings = input->prepared.findings;
+  std::ranges::copy(input->reader->findings(), std::back_inserter(findings));
   std::ranges::copy(done->findings, std::back_inserter(findings));
   std::ranges::move(done->failures(streams.scans()), std::back_inserter(findings));
   if (streams.scans() == 0) findings.push_back(no_scan(input->reader->counters()));

@@ -40,7 +40,7 @@ CommandResult<ExitCode> trace_recording(const OdometryOptions& options, std::ost
   for (const std::string& part : unread) out << part << '\n';
   if (!done->kept_its_way())
     return exit_with(kFailed, {"the odometry lost its way; the trajectory is not to be relied on"});
-  return kDone;
+  return is_damaged(input->reader->counters()) ? kFailed : kDone;
 }
 
 }  // namespace fleetmap::apps

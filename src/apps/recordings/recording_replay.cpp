@@ -1,16 +1,21 @@
 #include "recording_replay.hpp"
 
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "fleetmap/recording/survey.hpp"
+#include "fleetmap/sensor/clock_offsets.hpp"
 #include "health/sensor_settings.hpp"
 #include "options.hpp"
 #include "recording_player.hpp"
@@ -37,19 +42,23 @@ Result<config::RobotConfig> replayed_robot(const ReplayOptions& options) {
   return std::move(*robot);
 }
 
-/// Until each topic of a sensor has a reader, or a signal.
+/// Readers of each of sensor_topics().
+std::vector<std::size_t> readers_of(const bus::DdsBus& bus, const std::vector<bus::Topic>& topics) {
+  std::vector<std::size_t> readers;
+  for (const bus::Topic& topic : topics) readers.push_back(bus.matches(topic).readers);
+  return readers;
+}
+
+/// Until each topic of a sensor that the robot uses has a reader, or a signal.
 Status wait_for_agent(bus::DdsBus& bus, const config::RobotConfig& robot, double patience,
                       const std::atomic<bool>& stop) {
-  const auto matched = [&] {
-    return stop ||
-           std::ranges::all_of(sensor_topics(robot.agent.perception.topics),
-                               [&](const bus::Topic& topic) { return bus.matches(topic).readers > 0; });
-  };
+  const std::vector<bus::Topic> topics = sensor_topics(robot.agent.perception.topics);
+  const auto matched = [&] { return stop || check_readers(robot, readers_of(bus, topics)); };
   const bus::Handle wake = bus.every(std::chrono::milliseconds(50), [] {});
   if (bus.run_until(matched, from_seconds(patience))) return {};
-  return failure("fleetmap replay: no agent listens on onboard domain " +
-                 std::to_string(robot.dds.onboard.domain) + " after " + std::to_string(patience) +
-                 " s; start the agent first, with the same dds.onboard.domain");
+  const Status heard = check_readers(robot, readers_of(bus, topics));
+  if (heard) return {};
+  return failure("fleetmap replay: after " + fmt::format("{:.3g}", patience) + " s " + heard.error().message);
 }
 
 /// Plays to the end, or until a signal.
@@ -64,6 +73,32 @@ Status play(bus::DdsBus& bus, RecordingPlayer& player, const std::filesystem::pa
 }
 
 }  // namespace
+
+Status check_readers(const config::RobotConfig& robot, const std::vector<std::size_t>& readers) {
+  constexpr std::array kKeys{"topics.points", "topics.imu", "topics.fix", "topics.wheel"};
+  const std::vector<bus::Topic> topics = sensor_topics(robot.agent.perception.topics);
+  std::string read, unread;
+  for (std::size_t k = 0; k < topics.size(); ++k) {
+    const bool used = k != static_cast<std::size_t>(sensor::Source::kGps) || robot.agent.perception.uses_gps;
+    const std::string& name = topics[k].name;
+    const std::string in_ros = name.starts_with("rt/") ? name.substr(2) : name;
+    if (readers[k] > 0) {
+      append_to_list(read, in_ros);
+    } else if (used) {
+      append_to_list(unread, in_ros + " (" + kKeys.at(k) + ")");
+    }
+  }
+  if (unread.empty()) return {};
+  const std::string domain = "onboard domain " + std::to_string(robot.dds.onboard.domain);
+  if (read.empty()) {
+    return failure("no agent listens on " + domain +
+                   "; start the agent first, with the same dds.onboard.domain");
+  }
+  const bool only_fixes = unread.ends_with("(topics.fix)") && unread.find(", ") == std::string::npos;
+  return failure("an agent on " + domain + " reads " + read + ", but nobody reads " + unread +
+                 "; the agent " + (only_fixes ? "has gps.use: false or another name" : "has another name") +
+                 " for it: give replay the agent's own file with -c, or the same with --set");
+}
 
 CommandResult<Replay> replay_of(const ReplayOptions& options) {
   auto robot = replayed_robot(options);

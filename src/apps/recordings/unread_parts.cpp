@@ -23,6 +23,10 @@ std::vector<std::string> unread_parts(const recording::Counters& counters) {
   return findings;
 }
 
+bool is_damaged(const recording::Counters& counters) {
+  return counters.damaged_parts + counters.unreadable_scan_files + counters.malformed_oxts_frames > 0;
+}
+
 std::string no_scan(const recording::Counters& counters) {
   std::string left_out;
   for (const auto& [count, what] :

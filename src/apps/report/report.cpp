@@ -1,5 +1,7 @@
 #include "report.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -153,8 +155,9 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
     if (!entry.agent && entry.store) add_holdings(agent, *entry.store, results);
     if (!entry.problem.empty()) agent["problem"] = entry.problem;
     for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
-    if (const auto unread = unread_parts(entry.recording); !unread.empty())
-      agent["recording"]["findings"] = unread;
+    std::vector<std::string> findings = entry.recording_findings;
+    std::ranges::move(unread_parts(entry.recording), std::back_inserter(findings));
+    if (!findings.empty()) agent["recording"]["findings"] = findings;
   }
   if (const Status written = write_whole_file(out / "report.json", text_of(report)); !written) return written;
   ReportFacts facts;

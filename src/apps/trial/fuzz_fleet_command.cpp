@@ -33,7 +33,9 @@ void add_fuzz_fleet(CLI::App& app, int& exit_code) {
       ->add_option("--mapping", options->mapping,
                    "s, duration of the mapping, during which faults are applied")
       ->check(positive_number());
-  command->add_option("--jobs", options->jobs, "fleets at a time")->check(whole_number(1, 256));
+  command->add_option("--jobs", options->jobs, "fleets at a time")
+      ->check(whole_number(1, 256))
+      ->default_str("one for each core");
   command->add_flag("--signatures", options->signatures,
                     "robots sign their items, as a fleet with keys does");
   command->add_flag("--no-shrink", options->no_shrink,

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/core/result.hpp"
@@ -49,6 +50,11 @@ class FleetFeed {
   virtual FeedSeconds cpu_seconds() const { return {}; }
   /// Counters of what reading skipped.
   virtual recording::Counters counters(std::size_t member) const = 0;
+  /// Findings of a recording's reader, which corrects or misses what they name; empty of a twin.
+  virtual std::vector<std::string> findings(std::size_t member) const {
+    static_cast<void>(member);
+    return {};
+  }
   /// True position of the member in ENU, if the feed has one.
   virtual std::optional<bus::EnuPosition> position(std::size_t member) const = 0;
   /// Pose of the member as an external guide measures it; empty if none does.

@@ -19,6 +19,7 @@
 #include "page/preview_files.hpp"
 #include "recordings/recording_feed.hpp"
 #include "recordings/recording_input.hpp"
+#include "recordings/unread_parts.hpp"
 #include "report/report.hpp"
 #include "report/run_summary.hpp"
 #include "twin_feed.hpp"
@@ -104,7 +105,7 @@ CommandResult<ExitCode> report_outcome(const FleetOutcome& outcome, const RunPro
   print_summary(out, outcome, folder);
   out << summary_of(profile) << '\n';
   const bool whole = std::ranges::all_of(outcome.agents, [](const auto& entry) {
-    return (entry.results || !entry.agent) && entry.problem.empty();
+    return (entry.results || !entry.agent) && entry.problem.empty() && !is_damaged(entry.recording);
   });
   return whole ? kDone : kFailed;
 }

@@ -27,7 +27,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command
       ->add_option("--threads", options->threads,
                    "maximum number of threads; the result does not depend on it")
-      ->check(whole_number(1, 256));
+      ->check(whole_number(1, 256))
+      ->default_str("one for each core");
   command
       ->add_option(
           "--first-session", options->first_session,

@@ -338,6 +338,7 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   }
   if (result.problem.empty()) result.problem = feed_->problem(member);
   result.recording = feed_->counters(member);
+  result.recording_findings = feed_->findings(member);
   if (self.bag) {
     if (const Status closed = self.bag->close(); !closed) return tl::unexpected(closed.error());
   }

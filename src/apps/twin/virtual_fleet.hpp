@@ -45,6 +45,7 @@ struct FleetOutcome {
     std::optional<store::Store> store;
     std::optional<output::Results> results;
     recording::Counters recording;
+    std::vector<std::string> recording_findings;  ///< of its reader
     std::string problem;  ///< why there are no results, or why they are not of the whole recording
   };
   std::vector<AgentOutcome> agents;

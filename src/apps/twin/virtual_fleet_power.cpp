@@ -57,6 +57,7 @@ FleetOutcome::AgentOutcome VirtualFleet::results_of_store(std::size_t member) {
   result.id = self.id;
   result.directory = config.directory;
   result.recording = feed_->counters(member);
+  result.recording_findings = feed_->findings(member);
   if (self.bag) {
     if (const Status closed = self.bag->close(); !closed) result.problem = closed.error().message;
   }

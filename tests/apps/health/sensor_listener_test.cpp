@@ -10,6 +10,7 @@
 
 #include "apps/made_robot.hpp"
 #include "fleetmap/bus/local_network.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "recordings/sample_player.hpp"
 
 namespace fleetmap::apps {
@@ -65,6 +66,15 @@ TEST_F(SensorListenerTest, WhatCannotBeDecodedIsCountedByItsReason) {
     network_->run_until(network_->now() + std::chrono::milliseconds(10));
   }
   EXPECT_THAT(listener_.findings(), Contains(AllOf(HasSubstr(imu.name + ": "), HasSubstr(" (2 messages)"))));
+}
+
+TEST_F(SensorListenerTest, TwoLidarsOnOneTopicAreAFinding) {
+  for (int k = 0; k < 4; ++k) {
+    const sensor::Scan scan{robot_.now(), false, false, {{{1.0f, 2.0f, 3.0f}, 0.0f, 0.0f, 0}}};
+    robot_.publish(sensor_topics(config_.topics)[0], ros_codec::encode(scan, k % 2 == 0 ? "front" : "rear"));
+    network_->run_until(network_->now() + std::chrono::milliseconds(10));
+  }
+  EXPECT_THAT(listener_.findings(), Contains(HasSubstr("'front' and 'rear': two LiDARs publish on it")));
 }
 
 TEST_F(SensorListenerTest, EachSilentTopicIsNamedWithItsRemedy) {

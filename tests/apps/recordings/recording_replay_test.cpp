@@ -54,6 +54,29 @@ TEST_F(RecordingReplayTest, TheCommandLineNamesAnotherRecordingAndAnotherRobot) 
   EXPECT_THAT(wrong.error().error.message, HasSubstr("--as: "));
 }
 
+TEST_F(RecordingReplayTest, TopicsThatNobodyReadsAreNamedApartFromAMissingAgent) {
+  config::RobotConfig robot;
+  robot.dds.onboard.domain = 41;
+  robot.agent.perception.topics.imu = "rt/imu/data";
+  EXPECT_TRUE(check_readers(robot, {1, 1, 1, 1}));
+  const Status nobody = check_readers(robot, {0, 0, 0, 0});
+  ASSERT_FALSE(nobody);
+  EXPECT_THAT(nobody.error().message, HasSubstr("no agent listens on onboard domain 41; start the agent"));
+  const Status other_name = check_readers(robot, {1, 0, 1, 1});
+  ASSERT_FALSE(other_name);
+  EXPECT_THAT(
+      other_name.error().message,
+      HasSubstr("an agent on onboard domain 41 reads /points, /fix, /wheel_odometry, but nobody reads"));
+  EXPECT_THAT(other_name.error().message,
+              HasSubstr("nobody reads /imu/data (topics.imu); the agent has another name for it"));
+  const Status no_fixes = check_readers(robot, {1, 1, 0, 1});
+  ASSERT_FALSE(no_fixes);
+  EXPECT_THAT(no_fixes.error().message,
+              HasSubstr("nobody reads /fix (topics.fix); the agent has gps.use: false or"));
+  robot.agent.perception.uses_gps = false;
+  EXPECT_TRUE(check_readers(robot, {1, 1, 0, 1}));
+}
+
 TEST_F(RecordingReplayTest, WithoutARecordingItFails) {
   const auto none = replay_of({});
   ASSERT_FALSE(none);

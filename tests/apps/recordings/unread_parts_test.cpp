@@ -20,6 +20,18 @@ TEST(UnreadParts, AreASentenceForEachKind) {
                                                   HasSubstr("3 messages are truncated")));
 }
 
+TEST(UnreadParts, DamageIsOfTheRecordingAndNotOfADriver) {
+  recording::Counters counters;
+  counters.undecodable_messages = 3;
+  EXPECT_FALSE(is_damaged(counters));
+  for (const auto count : {&recording::Counters::damaged_parts, &recording::Counters::unreadable_scan_files,
+                           &recording::Counters::malformed_oxts_frames}) {
+    recording::Counters damaged;
+    damaged.*count = 1;
+    EXPECT_TRUE(is_damaged(damaged));
+  }
+}
+
 TEST(NoScan, NamesWhatWasLeftOut) {
   recording::Counters counters;
   EXPECT_THAT(no_scan(counters), HasSubstr("no scan: the LiDAR was off, or its topic"));

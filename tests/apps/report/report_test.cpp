@@ -93,6 +93,13 @@ TEST_F(FleetReport, DamageOfARecordingIsAWarning) {
   EXPECT_THAT(page_, Not(HasSubstr("<li>r1: 1 part")));
 }
 
+TEST_F(FleetReport, AFindingOfARecordingsReaderIsAWarning) {
+  outcome_.agents[1].recording_findings = {"LiDAR: two on one topic"};
+  outcome_.agents[1].recording.damaged_parts = 1;
+  EXPECT_EQ(written()["agents"]["r2"]["recording"]["findings"].size(), 2u);
+  EXPECT_THAT(page_, HasSubstr("<li>r2: LiDAR: two on one topic"));
+}
+
 TEST_F(FleetReport, VersionAndSettingsAreThere) {
   const auto settings = written()["settings"];
   EXPECT_EQ(settings["version"], "1.2 abc");
