@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNoMounts = "no mounts here";
 
-const AgentId kRobot = testing::agent("r1");
+const AgentId kDiskOwner = testing::agent("r1");
 
 bool mount_disk(const fs::path& folder) {
   return (unshare(CLONE_NEWNS) == 0 || unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0) &&
@@ -42,11 +42,14 @@ class ReadOnlyDisk : public ::testing::Test {
 
   /// The words of `look`, or those of `fill` if there are any.
   std::string said(const Step& fill, const Step& look) const {
+    return said_in_child([&] { return said_on_disk(fill, look); });
+  }
+  static std::string said_in_child(const std::function<std::string()>& speak) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return "no pipe";
     const pid_t child = fork();
     if (child == 0) {
-      const std::string words = said_on_disk(fill, look);
+      const std::string words = speak();
       _exit(write(ends[1], words.data(), words.size()) == static_cast<ssize_t>(words.size()) ? 0 : 1);
     }
     close(ends[1]);
@@ -70,16 +73,16 @@ class ReadOnlyDisk : public ::testing::Test {
 };
 
 std::string make_store(const fs::path& file) {
-  const auto store = Store::open(file, kRobot);
+  const auto store = Store::open(file, kDiskOwner);
   return store ? "" : store.error().message;
 }
 
 /// A store as a program leaves it that is killed: its log is not moved into its file.
 std::string make_store_with_log(const fs::path& file) {
-  auto store = Store::open(file, kRobot);
+  auto store = Store::open(file, kDiskOwner);
   if (!store) return store.error().message;
   const Bytes submap = testing::random_bytes(2000, 1);
-  const auto put = store->put_node_with_submap(testing::make_node(kRobot, 0, submap), submap);
+  const auto put = store->put_node_with_submap(testing::make_node(kDiskOwner, 0, submap), submap);
   if (!put) return put.error().message;
   const fs::path kept = file.parent_path() / "kept";
   for (const char* suffix : {"", "-wal"}) fs::copy_file(file.string() + suffix, kept.string() + suffix);
@@ -111,6 +114,18 @@ TEST_F(ReadOnlyDisk, AStoreThereIsNotOpenedForWritingAndItIsSaidWhatToDo) {
 TEST_F(ReadOnlyDisk, AStoreThereIsReadAndNothingIsWrittenBesideIt) {
   const std::string words = said(make_store, read_store);
   if (words == kNoMounts) GTEST_SKIP() << words;
+  EXPECT_EQ(words, "read r1, beside it: store.db.lock");
+}
+
+TEST_F(ReadOnlyDisk, AStoreInTheFolderOfAnotherUserIsReadAndNothingIsWrittenBesideIt) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
+  ASSERT_EQ(make_store(disk_ / "store.db"), "");
+  for (const fs::path& folder : {folder_.path(), disk_}) fs::permissions(folder, fs::perms(0755));
+  fs::permissions(disk_ / "store.db", fs::perms(0644));
+  const std::string words = said_in_child([&] {
+    constexpr uid_t kNobody = 65534;
+    return seteuid(kNobody) == 0 ? read_store(disk_ / "store.db") : "still root";
+  });
   EXPECT_EQ(words, "read r1, beside it: store.db.lock");
 }
 

@@ -26,7 +26,7 @@ struct RadioSurvey {
   std::vector<Robot> robots;         ///< in the order in which they were first heard
   std::size_t places = 0;            ///< addresses at which robots are sought
   std::vector<std::string> silent;   ///< addresses of other machines in `peers` without a robot so far
-  std::vector<std::string> refused;  ///< who is not exchanged with and why, also of those that left
+  std::vector<std::string> refused;  ///< robots not exchanged with, and why; also those that left
   std::vector<std::string> different_settings;  ///< of other robots that must equal this one's
 };
 

@@ -166,7 +166,7 @@ bool has_gps(const store::Store& store) {
   return std::ranges::any_of(store.nodes(), [](const auto& entry) { return entry.second.G.has_value(); });
 }
 
-/// What the heights of stores are above, for the store that they become.
+/// Kind of the heights of stores (above the ellipsoid or sea level), for the store that they become.
 class MergedHeights {
  public:
   void add(const store::Store& store) {

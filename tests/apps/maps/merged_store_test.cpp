@@ -58,7 +58,10 @@ TEST_F(MergedStoreTest, HeightsOfTwoKindsAreNotTakenForOne) {
   drive("a.db", 0, {0.0, 0.0, 0.0});
   drive("b.db", 1, {0.0, 700.0, 0.0});
   const AgentId r1 = AgentId::parse("r1").value();
-  ASSERT_TRUE(output::keep_sea_level_heights(*store::Store::open(path("b.db"), r1)));
+  {
+    auto later = store::Store::open(path("b.db"), r1);
+    ASSERT_TRUE(later && output::keep_sea_level_heights(*later));
+  }
   merge({path("a.db"), path("b.db")});
   const auto store = store::Store::open_read_only(path("merged.db"));
   ASSERT_TRUE(store) << store.error().message;
