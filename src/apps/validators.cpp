@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -59,6 +60,17 @@ CLI::Validator non_negative_number() {
     return value && *value >= 0.0 ? std::string() : "must be a number of at least 0, is " + text;
   };
   return {check, "", "non-negative number"};
+}
+
+CLI::Validator number_within(double min, double max) {
+  const auto check = [=](const std::string& text) {
+    const auto value = finite(text);
+    if (value && *value >= min && *value <= max) return std::string();
+    std::ostringstream refusal;
+    refusal << "must be a number from " << min << " to " << max << ", is " << text;
+    return refusal.str();
+  };
+  return {check, "", "number within"};
 }
 
 CLI::Validator some_path() {

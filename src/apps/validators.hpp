@@ -12,6 +12,7 @@ namespace fleetmap::apps {
 CLI::Validator whole_number(std::uint64_t min, std::uint64_t max = std::numeric_limits<std::uint64_t>::max());
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
+CLI::Validator number_within(double min, double max);
 /// Not empty, as it is when a script's variable is unset.
 CLI::Validator some_path();
 /// A path with one of these extensions (".gpx").

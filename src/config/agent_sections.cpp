@@ -1,5 +1,6 @@
 #include "agent_sections.hpp"
 
+#include <sstream>
 #include <string>
 
 #include "exchange_sections.hpp"
@@ -11,12 +12,23 @@
 namespace fleetmap::config {
 namespace {
 
+constexpr double kLowestSite_m = -500.0;  // the shore of the Dead Sea lies at -430
+constexpr double kHighestSite_m = 9000.0;
+
 void read_site(Section& top, agent::AgentConfig& agent) {
   Section site = top.section("site");
   if (const auto origin = site.numbers("origin", 3)) {
     agent.site_origin = geo_point_from_degrees((*origin)[0], (*origin)[1], (*origin)[2]);
-    if (!is_valid(*agent.site_origin))
+    const double altitude = (*origin)[2];
+    if (!is_valid(*agent.site_origin)) {
       site.problem("origin", "expected [latitude_deg, longitude_deg, altitude_m]");
+    } else if (altitude < kLowestSite_m || altitude > kHighestSite_m) {
+      std::ostringstream text;
+      text << "the altitude is " << altitude << " m, and no site lies outside " << kLowestSite_m << " to "
+           << kHighestSite_m
+           << " m; expected [latitude_deg, longitude_deg, altitude_m], the altitude in metres";
+      site.problem("origin", text.str());
+    }
   }
   site.finish();
 }

@@ -49,6 +49,29 @@ bool has_an_end(const YAML::Node& node, std::size_t& values, int depth = 0) {
   return true;
 }
 
+/// The shortest beginning of the path `keys` at which `root` has no map.
+std::string first_new_key(const YAML::Node& root, const std::vector<std::string>& keys) {
+  YAML::Node at = root;
+  std::string path;
+  for (const std::string& key : keys) {
+    path += path.empty() ? key : "." + key;
+    const YAML::Node& map = at;
+    const YAML::Node below = map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+    if (!below.IsDefined() || !below.IsMap()) break;
+    at.reset(below);
+  }
+  return path;
+}
+
+/// True if `path` ends at a map that the override of `key` made, of which `first` is the outermost.
+bool is_made_by_override(const std::string& path, const std::string& key, const std::string& first) {
+  for (std::size_t end = first.size(); end < key.size(); end = key.find('.', end + 1)) {
+    const std::string made = key.substr(0, end);
+    if (path == made || path.ends_with("." + made)) return true;
+  }
+  return false;
+}
+
 using Repeated = std::function<void(const std::string& path, const YAML::Mark& again, int first_line)>;
 
 /// YAML forbids a repeated key in a map, but the parser silently takes the first. `visited` keeps anchors
@@ -136,11 +159,12 @@ Status Document::apply(const std::vector<Override>& overrides) {
       const YAML::Node value = YAML::Load(entry.value);
       if (std::size_t values = 0; !has_an_end(value, values))
         return failure("--set " + entry.key + ": " + kTooLarge);
+      const std::string first = first_new_key(root_, keys);
+      overridden_[entry.key] = {entry.at.empty() ? "--set " : entry.at + ": ", first};
       root_ = with_value_at(root_, keys, 0, value);
     } catch (const YAML::Exception& e) {
       return failure("--set " + entry.key + "=" + entry.value + ": the value is not valid YAML: " + e.msg);
     }
-    overridden_[entry.key] = entry.at.empty() ? "--set " : entry.at + ": ";
   }
   return {};
 }
@@ -172,10 +196,15 @@ void Document::problem(const std::string& path, const YAML::Mark& mark, const st
     return path == key || path.starts_with(key + ".") || path.ends_with("." + key) ||
            path.find("." + key + ".") != std::string::npos;
   });
+  const auto maker = std::ranges::find_if(overridden_, [&](const auto& entry) {
+    return is_made_by_override(path, entry.first, entry.second.first_new);
+  });
   std::string line;
   if (by != overridden_.end()) {
     const std::string key = by->first.starts_with("agents") ? path : without_element(path, "agents");
-    line = by->second + key + ": " + what;
+    line = by->second.origin + key + ": " + what;
+  } else if (maker != overridden_.end()) {
+    line = maker->second.origin + maker->first + ": " + what;
   } else {
     line = name_ + ":" + (mark.is_null() ? "" : std::to_string(mark.line + 1) + ":") + " " +
            origin_of(path, mark) + ": " + what;

@@ -38,12 +38,17 @@ class Document {
   Status status() const;
 
  private:
+  struct Overridden {
+    std::string origin;     ///< "--set ", or the line of an experiment
+    std::string first_new;  ///< the outermost key that it added or replaced
+  };
+
   /// The place where a problem at `mark`, found while reading `path`, must be corrected.
   std::string origin_of(const std::string& path, const YAML::Mark& mark) const;
 
   YAML::Node root_;
   std::string name_;
-  std::map<std::string, std::string> overridden_;  ///< and its origin: --set, or a line of an experiment
+  std::map<std::string, Overridden> overridden_;  ///< by key
   std::map<int, std::pair<std::string, std::string>>
       shared_;  ///< by position: the list, and the path instead
   std::vector<std::string> problems_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -48,9 +49,14 @@ std::string nearest_key(const std::string& key, const std::set<std::string>& kno
   for (const std::string& candidate : known) {
     if (nearest.empty() || edit_distance(key, candidate) < edit_distance(key, nearest)) nearest = candidate;
   }
-  const bool alike =
-      !nearest.empty() && edit_distance(key, nearest) <= std::max<std::size_t>(2, key.size() / 3);
-  return alike ? nearest : "";
+  return may_be_misspelt(key, nearest) ? nearest : "";
+}
+
+/// A message "field: ..." of validate() without the field.
+std::string without_field(const std::string& message) {
+  const std::size_t colon = message.find(": ");
+  const bool names_field = colon != std::string::npos && message.find(' ') == colon + 1;
+  return names_field ? message.substr(colon + 2) : message;
 }
 
 }  // namespace
@@ -240,14 +246,28 @@ std::optional<std::string> Section::key_named_in(const std::string& message) con
   return std::nullopt;
 }
 
+bool Section::note_at_path(const std::string& message) {
+  const std::string path = message.substr(0, message.find_first_of(": "));
+  if (!node_.IsMap() || path.find('.') == std::string::npos) return false;
+  YAML::Node at = node_;
+  std::istringstream keys(path);
+  for (std::string key; std::getline(keys, key, '.');) {
+    const YAML::Node& map = at;
+    const YAML::Node below = map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+    if (!below.IsDefined()) return false;
+    at.reset(below);
+  }
+  document_->problem(path_of(path), at.Mark().is_null() ? mark() : at.Mark(), without_field(message));
+  return true;
+}
+
 void Section::check(const Status& status) {
   if (status) return;
   const std::string& message = status.error().message;
+  if (note_at_path(message)) return;
   const auto key = key_named_in(message);
   if (!key) return document_->problem(path_.empty() ? "configuration" : path_, mark(), message);
-  const std::size_t colon = message.find(": ");
-  const bool names_field = colon != std::string::npos && message.find(' ') == colon + 1;
-  problem(*key, names_field ? message.substr(colon + 2) : message);
+  problem(*key, without_field(message));
 }
 
 void Section::finish() {

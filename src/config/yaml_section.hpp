@@ -75,6 +75,8 @@ class Section {
   YAML::Mark mark() const;
   /// The key of this map that a message "field: ..." or "field must ..." of validate() speaks of.
   std::optional<std::string> key_named_in(const std::string& message) const;
+  /// Notes a message "link.key ..." of validate() at that key of a map in this one; false if there is none.
+  bool note_at_path(const std::string& message);
   template <class T>
   void read_scalar(const std::string& key, T& value, const char* expected);
 

@@ -20,4 +20,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+bool may_be_misspelt(std::string_view word, std::string_view meant) {
+  return edit_distance(word, meant) <= (word.size() + 1) / 3;
+}
+
 }  // namespace fleetmap

@@ -10,6 +10,7 @@
 #include "elevation_grid.hpp"
 #include "fleetmap/core/paths.hpp"
 #include "fleetmap/output/map_files.hpp"
+#include "fleetmap/store/submap_loader.hpp"
 #include "geotiff_writer.hpp"
 
 namespace fleetmap::output {
@@ -59,11 +60,25 @@ class UnfinishedFolder {
   bool unfinished_ = false;
 };
 
+Status check_not_stopped(const std::atomic<bool>& stop) {
+  return stop ? failure("stopped by a signal; no raster was written") : Status();
+}
+
+/// Once `stop` is set it loads none, so that those who read them all are done at once.
+store::SubmapLoader submaps_until(const std::atomic<bool>& stop, store::Store& store) {
+  return [&stop, load = store::decoded_submaps(store)](const NodeId& id) -> Result<cloud::PointCloud> {
+    if (const Status goes_on = check_not_stopped(stop); !goes_on) return tl::unexpected(goes_on.error());
+    return load(id);
+  };
+}
+
 /// Hands the map's points to `use`, in the coordinates of `crs`.
 template <class Use>
-Status stream_points(store::TiledMerge& merge, const MapCrs& crs, const Use& use) {
+Status stream_points(store::TiledMerge& merge, const MapCrs& crs, const std::atomic<bool>& stop,
+                     const Use& use) {
   constexpr std::size_t kBlock = 65'536;  // points in memory, beside those of the merge
   return merge.stream([&](const store::MapTile& tile) -> Status {
+    if (const Status goes_on = check_not_stopped(stop); !goes_on) return goes_on;
     const std::span<const Eigen::Vector3f> all(tile.cloud.points);
     for (std::size_t begin = 0; begin < all.size(); begin += kBlock) {
       const auto points = crs.from_map(all.subspan(begin, std::min(kBlock, all.size() - begin)));
@@ -75,17 +90,17 @@ Status stream_points(store::TiledMerge& merge, const MapCrs& crs, const Use& use
 }
 
 Result<ElevationRaster> elevation_of(store::TiledMerge& merge, const MapCrs& crs,
-                                     const ElevationConfig& config) {
+                                     const ElevationConfig& config, const std::atomic<bool>& stop) {
   ElevationGrid grid(config);
-  Status done = stream_points(merge, crs, [&](const auto& points) { grid.add(points); });
+  Status done = stream_points(merge, crs, stop, [&](const auto& points) { grid.add(points); });
   if (done) done = grid.find_ground();
-  if (done) done = stream_points(merge, crs, [&](const auto& points) { grid.add_to_ground(points); });
+  if (done) done = stream_points(merge, crs, stop, [&](const auto& points) { grid.add_to_ground(points); });
   if (!done) return tl::unexpected(done.error());
   return grid.take();
 }
 
 Status write_rasters(const GeoTiffWriter& writer, const ElevationRaster& raster, const MapCrs& crs,
-                     const std::string& software, const fs::path& folder) {
+                     const std::string& software, const fs::path& folder, const std::atomic<bool>& stop) {
   GeoTiffBand band{{},        nullptr, raster.width, raster.height, raster.west, raster.north, raster.cell,
                    crs.wkt(), {},      {},           software};
   band.file = (folder / "ground.tif").string();
@@ -93,11 +108,13 @@ Status write_rasters(const GeoTiffWriter& writer, const ElevationRaster& raster,
   band.values = raster.ground.data();
   band.text = "Terrain: mean height of the ground's points in each cell. " + crs.text();
   if (const Status written = writer.write(band); !written) return written;
+  if (const Status goes_on = check_not_stopped(stop); !goes_on) return goes_on;
   band.file = (folder / "surface.tif").string();
   band.name = "surface";
   band.values = raster.surface.data();
   band.text = "Surface: height of the highest points in each cell (95 %). " + crs.text();
   if (const Status written = writer.write(band); !written) return written;
+  if (const Status goes_on = check_not_stopped(stop); !goes_on) return goes_on;
   return writer.write_hillshade(folder / "surface.tif", folder / "hillshade.tif");
 }
 
@@ -111,19 +128,22 @@ std::size_t cells_with_value(const std::vector<float>& heights) {
 Result<WrittenElevation> write_elevation(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                          const store::MergeConfig& merge, const MapCrs& crs,
                                          const ElevationConfig& config, const fs::path& out,
-                                         const std::string& software) {
+                                         const std::string& software, const std::atomic<bool>& stop) {
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   const auto writer = GeoTiffWriter::load();
   if (!writer) return tl::unexpected(writer.error());
   auto folder = UnfinishedFolder::create(out);
   if (!folder) return tl::unexpected(folder.error());
-  auto tiled = tiled_map(store, T_map_node, merge);
+  auto tiled = tiled_map(store, T_map_node, merge, submaps_until(stop, store));
+  if (const Status goes_on = check_not_stopped(stop); !goes_on) return tl::unexpected(goes_on.error());
   if (!tiled) return tl::unexpected(tiled.error());
   if (const Status some = require_points(tiled->outline()); !some)
     return failure(store.path().string() + ": " + some.error().message);
-  const auto raster = elevation_of(*tiled, crs, config);
+  const auto raster = elevation_of(*tiled, crs, config, stop);
+  if (const Status goes_on = check_not_stopped(stop); !goes_on) return tl::unexpected(goes_on.error());
   if (!raster) return failure(store.path().string() + ": " + raster.error().message);
-  Status written = write_rasters(*writer, *raster, crs, software, folder->part());
+  Status written = write_rasters(*writer, *raster, crs, software, folder->part(), stop);
+  if (written) written = check_not_stopped(stop);
   if (written) written = folder->finish();
   if (!written) return tl::unexpected(written.error());
   return WrittenElevation{tiled->outline(), raster->width, raster->height, cells_with_value(raster->surface),

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "fleetmap/core/text_list.hpp"
@@ -88,6 +89,19 @@ Role role_of_points(const Role& clouds, const std::vector<BagTopic>& topics, con
   return selected != nullptr && wanted.empty() ? *selected : clouds;
 }
 
+/// Names the types that points are read from, for a bag that has none of them, and the remedy.
+std::string no_points(const char* clouds, const std::vector<BagTopic>& topics) {
+  std::string text = "no topic of points, of type ";
+  text += clouds;
+  for (const Role& role : kInsteadOfClouds) {
+    text += &role == std::prev(std::end(kInsteadOfClouds)) ? " or " : ", ";
+    text += role.type;
+  }
+  return text + "; the bag has: " + list(topics) +
+         ". The LiDAR was off, or its topic or type is another: record its driver's topic of one of these "
+         "types (recording.topics.points names it)";
+}
+
 Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics, const std::string& wanted,
                            const std::string& bag) {
   const auto named = [](const std::vector<BagTopic>& among, const std::string& name) {
@@ -102,9 +116,7 @@ Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics
   if (candidates.size() == 1) return candidates.front().name;
   if (named(candidates, role.own_name)) return std::string(role.own_name);
   if (candidates.empty() && !role.needed) return std::string();
-  if (candidates.empty()) {
-    return failure(bag + ": no topic of type " + role.type + "; the bag has: " + list(topics));
-  }
+  if (candidates.empty()) return failure(bag + ": " + no_points(role.type, topics));
   return failure(bag + ": several topics of type " + role.type + ": " + list(candidates) +
                  "; choose one with " + role.key + (role.needed ? "" : " (or none)"));
 }

@@ -153,7 +153,9 @@ void SensorHealth::check_gravity(const Imu& imu) {
   state("IMU: gravity is " + short_number(tilt / kDegree) +
         " deg off base_link's z at the start, so the IMU is not mounted as imu.rotation_rpy_deg says: it "
         "should be turned by [" +
-        short_number(turn.x()) + ", " + short_number(turn.y()) + ", 0] deg more; or its axes are swapped");
+        short_number(turn.x()) + ", " + short_number(turn.y()) +
+        ", 0] deg more; or its axes are swapped. Gravity does not show yaw: its 0 is assumed, so compare the "
+        "IMU's x with base_link's");
 }
 
 void SensorHealth::correct_force(Imu& imu) {

@@ -35,6 +35,13 @@ TEST(Validators, NumbersAreFinite) {
   }
 }
 
+TEST(Validators, NumbersWithinARangeAreThoseAtItsEndsToo) {
+  const CLI::Validator cell = number_within(0.05, 1000.0);
+  for (const char* good : {"0.05", "1", "1e3"}) EXPECT_EQ(error_of(cell, good), "") << good;
+  for (const char* bad : {"0", "0.0499", "-1", "1001", "nan", "", "1 m"})
+    EXPECT_EQ(error_of(cell, bad), std::string("must be a number from 0.05 to 1000, is ") + bad);
+}
+
 TEST(Validators, AnEmptyPathIsMostLikelyAnUnsetVariable) {
   EXPECT_EQ(error_of(some_path(), "."), "");
   EXPECT_THAT(error_of(some_path(), ""), HasSubstr("is a variable unset?"));

@@ -10,6 +10,7 @@
 namespace fleetmap::config {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 AgentReading agent_section_of(const std::string& yaml) { return agent_of(yaml, read_agent); }
@@ -37,6 +38,13 @@ TEST(AgentSections, NamesThatAreNoneAreProblems) {
 TEST(AgentSections, AnOriginIsALatitudeALongitudeAndAnAltitude) {
   EXPECT_THAT(agent_section_of("id: r1\nsite: {origin: [95, 9, 0]}\n").problems,
               HasSubstr("robot.yaml:2: site.origin: expected [latitude"));
+  for (const char* altitude : {"-501", "9001", "600000"}) {
+    EXPECT_THAT(
+        agent_section_of("id: r1\nsite: {origin: [39, -3, " + std::string(altitude) + "]}\n").problems,
+        AllOf(HasSubstr("robot.yaml:2: site.origin: the altitude is " + std::string(altitude) + " m"),
+              HasSubstr("-500 to 9000 m"), HasSubstr("altitude in metres")));
+  }
+  EXPECT_EQ(agent_section_of("id: r1\nsite: {origin: [31.5, 35.5, -430]}\n").problems, "");
   EXPECT_THAT(agent_section_of("id: r1\nsite: {origin: [48, 9]}\n").problems,
               HasSubstr("robot.yaml:2: site.origin: "));
   EXPECT_THAT(agent_section_of("id: r1\nsite: {orign: [48, 9, 0]}\n").problems,

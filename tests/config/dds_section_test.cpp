@@ -50,7 +50,8 @@ TEST(DdsSection, ProblemsNameTheLinkAndTheKey) {
               HasSubstr("long_range.domain must differ"));
   EXPECT_THAT(dds_of("dds:\n  long_range: {adress: 127.0.0.1}\n").problems,
               HasSubstr("robot.yaml:2: dds.long_range.adress: unknown key; did you mean 'address'?"));
-  EXPECT_THAT(dds_of("dds:\n  onboard: {domain: 300}\n").problems, HasSubstr("domain is 300"));
+  EXPECT_THAT(dds_of("dds:\n  onboard: {domain: 300}\n").problems,
+              HasSubstr("robot.yaml:2: dds.onboard.domain: onboard.domain is 300"));
 }
 
 TEST(DdsSection, TheFolderOfProfilesHoldsThoseOfAllLinks) {

@@ -35,7 +35,7 @@ TEST(MissionSettings, ProblemsNameTheOverride) {
   EXPECT_THAT(error_of({{"mission.every", "0"}}), HasSubstr("--set mission.every: must be at least 1"));
   EXPECT_THAT(error_of({{"mission.speed", "fast"}}),
               HasSubstr("--set mission.speed: expected a number, found 'fast'"));
-  EXPECT_THAT(error_of({{"lidar.model", "vlp16"}}), HasSubstr("lidar: unknown key"));
+  EXPECT_THAT(error_of({{"lidar.model", "vlp16"}}), HasSubstr("--set lidar.model: unknown key"));
   EXPECT_THAT(error_of({{"mission..speed", "1"}}), HasSubstr("the key must look like"));
 }
 

@@ -9,8 +9,10 @@ namespace fleetmap::config {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Eq;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class RobotFileTest : public ConfigFiles {
  protected:
@@ -56,6 +58,16 @@ TEST_F(RobotFileTest, ARecordingAndTheRadiosAreRead) {
   EXPECT_TRUE(robot->agent.exchange.long_range.multicast) << "the budget counts one copy";
   EXPECT_DOUBLE_EQ(robot->dds.long_range.fleet_bits_per_second,
                    8.0 * robot->agent.exchange.long_range.fleet_bytes_per_second);
+}
+
+TEST_F(RobotFileTest, AnErrorOfAnOverrideNamesTheOverride) {
+  const auto error_of = [&](const Override& one) {
+    const auto robot = load_robot(write(kRobot + "dds: {onboard: {domain: 7}}\n"), {one});
+    return robot ? std::string() : robot.error().message;
+  };
+  EXPECT_THAT(error_of({"nope.x", "1"}), StartsWith("--set nope.x: unknown key; known here: "));
+  EXPECT_THAT(error_of({"lidr.model", "vlp16"}), Eq("--set lidr.model: unknown key; did you mean 'lidar'?"));
+  EXPECT_THAT(error_of({"dds.onboard.domain", "900"}), StartsWith("--set dds.onboard.domain: "));
 }
 
 TEST_F(RobotFileTest, SensorsNeedNoFileAndNoName) {

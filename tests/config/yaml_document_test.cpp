@@ -70,6 +70,16 @@ TEST(YamlDocument, AnOverrideChangesOneKeyAndIsNamedInItsProblems) {
   EXPECT_FALSE(document.apply({{"lidar.model", "[1"}}));
 }
 
+TEST(YamlDocument, AMapThatAnOverrideMakesIsItsProblem) {
+  Document document = Document::from(YAML::Load("{lidar: {model: vlp16}, gps: {}}"), "robot.yaml");
+  ASSERT_TRUE(document.apply({{"nope.x.y", "1"}, {"lidar.model.x", "2"}, {"gps.sigma", "3"}}));
+  for (const char* path : {"nope", "nope.x", "agents[0].lidar.model", "gps", "nopes"})
+    document.problem(path, YAML::Mark::null_mark(), "wrong");
+  EXPECT_EQ(document.status().error().message,
+            "--set nope.x.y: wrong\n--set lidar.model.x: wrong\n"
+            "robot.yaml: gps: wrong\nrobot.yaml: nopes: wrong");
+}
+
 TEST(YamlDocument, NamesTheReasonWhyAFileCannotBeRead) {
   const std::filesystem::path folder = ::testing::TempDir();
   EXPECT_EQ(unreadable(folder / "nothing.yaml"), "no such file");

@@ -13,6 +13,15 @@ TEST(EditDistance, CountsWhatIsInsertedRemovedAndReplaced) {
   EXPECT_EQ(edit_distance("", "abc"), 3u);
 }
 
+TEST(EditDistance, AWordMayBeMisspeltInAThirdOfItsCharacters) {
+  EXPECT_TRUE(may_be_misspelt("los", "loss"));
+  EXPECT_TRUE(may_be_misspelt("modle", "model"));
+  EXPECT_TRUE(may_be_misspelt("wheel", "wheels"));
+  EXPECT_FALSE(may_be_misspelt("nope", "mode")) << "half of it differs";
+  EXPECT_FALSE(may_be_misspelt("x", "y"));
+  EXPECT_FALSE(may_be_misspelt("id", ""));
+}
+
 TEST(EditDistance, IsSymmetricAndObeysTheTriangleInequality) {
   const char* words[] = {"seed=01", "seed=10", "agents=2.seed=01", "", "rate"};
   for (const char* a : words) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <random>
 
@@ -47,8 +48,10 @@ class ElevationMap : public ::testing::Test {
  protected:
   Result<WrittenElevation> write(const CrsRequest& request, const ElevationConfig& config = {}) {
     const auto crs = MapCrs::of(request, {testing::kSceneOrigin, true}, std::nullopt);
-    return write_elevation(store_, T_map_node_, {.voxel_m = 0.05}, crs.value(), config, out_, "fleetmap");
+    return write_elevation(store_, T_map_node_, {.voxel_m = 0.05}, crs.value(), config, out_, "fleetmap",
+                           stop_);
   }
+  std::atomic<bool> stop_ = false;
   testing::TemporaryFolder folder_;
   std::filesystem::path out_ = folder_.path() / "rasters";
   store::Store store_ = store::Store::open(folder_.path() / "store.db", AgentId::parse("r1").value()).value();
@@ -129,6 +132,17 @@ TEST_F(ElevationMap, LeavesNoFolderWhereItFails) {
   ASSERT_TRUE(write({}));
   EXPECT_THAT(write({}).error().message, HasSubstr("rasters: is there already and not empty"));
   EXPECT_FALSE(std::filesystem::exists(out_.string() + ".part"));
+}
+
+TEST_F(ElevationMap, OneThatIsStoppedLeavesNothing) {
+  stop_ = true;
+  const auto written = write({CrsRequest::Kind::enu, {}});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message, "stopped by a signal; no raster was written");
+  EXPECT_FALSE(std::filesystem::exists(out_));
+  EXPECT_FALSE(std::filesystem::exists(out_.string() + ".part"));
+  stop_ = false;
+  EXPECT_TRUE(write({CrsRequest::Kind::enu, {}}));
 }
 
 }  // namespace

@@ -103,7 +103,11 @@ TEST(BagTopics, MissingTopicsAreNamed) {
   write_bag(bag, {{"/imu", "sensor_msgs/msg/Imu"}});
   EXPECT_THAT(
       refusal(bag),
-      HasSubstr("no topic of type sensor_msgs/msg/PointCloud2; the bag has: /imu (sensor_msgs/msg/Imu)"));
+      AllOf(HasSubstr("no topic of points, of type sensor_msgs/msg/PointCloud2, "
+                      "livox_ros_driver2/msg/CustomMsg, "),
+            HasSubstr(" or velodyne_msgs/msg/VelodyneScan; the bag has: /imu (sensor_msgs/msg/Imu). "),
+            HasSubstr("The LiDAR was off, or its topic or type is another"),
+            HasSubstr("recording.topics.points")));
   ReaderConfig config;
   config.topics.points = "/scan";
   EXPECT_THAT(refusal(bag, config),

@@ -9,4 +9,7 @@ namespace fleetmap {
 /// `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
+/// True if `word` may be a misspelt `meant`: their distance is at most a third of its length, rounded.
+bool may_be_misspelt(std::string_view word, std::string_view meant);
+
 }  // namespace fleetmap

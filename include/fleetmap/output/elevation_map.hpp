@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -24,9 +25,10 @@ struct WrittenElevation {
 /// Merges the map of those nodes whose submaps the store holds, tile by tile, into three GeoTIFFs in the new
 /// folder `out`, which appears whole or not at all: ground.tif (terrain, DTM), surface.tif (the highest
 /// points, DSM) and hillshade.tif (of the surface). Cells without points are NoData. `software` writes it.
+/// Once `stop` is set it ends early with an error.
 Result<WrittenElevation> write_elevation(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                          const store::MergeConfig& merge, const MapCrs& crs,
                                          const ElevationConfig& config, const std::filesystem::path& out,
-                                         const std::string& software);
+                                         const std::string& software, const std::atomic<bool>& stop);
 
 }  // namespace fleetmap::output

@@ -4,6 +4,7 @@
 
 #include "fleetmap/output/elevation_map.hpp"
 #include "las_export.hpp"
+#include "options.hpp"
 #include "parts_apart.hpp"
 #include "version.hpp"
 
@@ -15,8 +16,9 @@ Status export_elevation(StoredMap& map, const MapOptions& options, std::ostream&
   if (!crs) return tl::unexpected(crs.error());
   output::ElevationConfig config;
   if (options.cell_m) config.cell_m = *options.cell_m;
-  const auto written = output::write_elevation(map.store, parts.main.T_map_node, map.recipe.merge, *crs,
-                                               config, options.out, std::string("fleetmap ") + kVersion);
+  const auto written =
+      output::write_elevation(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config, options.out,
+                              std::string("fleetmap ") + kVersion, stop_on_signals());
   if (!written) return tl::unexpected(written.error());
   out << options.out << ": ground.tif, surface.tif, hillshade.tif of " << written->width << " x "
       << written->height << " cells of " << config.cell_m << " m; points in " << written->observed

@@ -37,8 +37,10 @@ void add_export_options(CLI::App& command, MapOptions& options) {
                   "FILE.las, FILE.ply or FILE.pcd; a folder with --tile and with --format geotiff")
       ->required()
       ->check(some_path());
-  command.add_option("--voxel", options.voxel,
-                     "m, one point is kept in each cube of this edge; else as in the agent's last map");
+  command
+      .add_option("--voxel", options.voxel,
+                  "m, one point is kept in each cube of this edge; else as in the agent's last map")
+      ->check(number_within(0.001, 1000.0));
   command
       .add_option(
           "--crs", options.las.crs,
@@ -54,7 +56,8 @@ void add_export_options(CLI::App& command, MapOptions& options) {
           "--format", options.format,
           "geotiff: heights of the ground and of the surface, and a hillshade; else by the name of --out")
       ->check(CLI::IsMember({"geotiff"}));
-  command.add_option("--cell", options.cell_m, "m, edge of a raster's cell; 0.5 by default");
+  command.add_option("--cell", options.cell_m, "m, edge of a raster's cell; 0.5 by default")
+      ->check(number_within(0.05, 1000.0));
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ void add_map_merge(CLI::App& map, int& exit_code) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* command =
       map.add_subcommand("merge", "aligns the stores of several days or robots and merges them into one");
-  command->add_option("stores", options->stores, "store.db of each day or robot")
+  command->add_option("stores", options->stores, "store.db of each day or robot, at least two")
       ->required()
-      ->expected(2, 64);
+      ->expected(2, -1);
   command->add_option("--out", options->out, "FILE.db, or a folder for store.db")
       ->required()
       ->check(some_path());

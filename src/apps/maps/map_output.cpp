@@ -21,19 +21,23 @@
 namespace fleetmap::apps {
 namespace {
 
-Result<StoredMap> open(const MapOptions& options) {
+CommandResult<StoredMap> open(const MapOptions& options) {
   MapSelection selection;
-  if (const auto& deg = options.origin_deg; !deg.empty())
+  if (const auto& deg = options.origin_deg; !deg.empty()) {
     selection.origin = geo_point_from_degrees(deg[0], deg[1], deg[2]);
+    if (!is_valid(*selection.origin))
+      return exit_with(kUsage, {"--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m"});
+  }
   selection.voxel_m = options.voxel;
   auto without = robots_named(options.without);
-  if (!without) return tl::unexpected(without.error());
+  if (!without) return exit_with(kUsage, {"--without: " + without.error().message});
   selection.without = std::move(*without);
   auto map = open_map(options.store, selection);
-  if (map && selection.origin && !map->items.nodes.empty() && map->placement.T_enu_node.empty())
-    return failure(options.store + ": none of its " + std::to_string(map->items.nodes.size()) +
-                   " nodes lies near this origin; give one at the site, or leave --origin out");
-  return map;
+  if (!map) return exit_with(kFailed, map.error());
+  if (selection.origin && !map->items.nodes.empty() && map->placement.T_enu_node.empty())
+    return exit_with(kFailed, {options.store + ": none of its " + std::to_string(map->items.nodes.size()) +
+                               " nodes lies near this origin; give one at the site, or leave --origin out"});
+  return std::move(*map);
 }
 
 bool is_point_file(const std::string& file) {
@@ -68,7 +72,7 @@ CommandResult<ExitCode> print_written(const Result<std::string>& written, std::o
 CommandResult<ExitCode> print_map_info(const MapOptions& options, std::ostream& out) {
   if (options.json) return print_json(options, out);
   const auto map = open(options);
-  if (!map) return exit_with(kFailed, map.error());
+  if (!map) return tl::unexpected(map.error());
   print_info(out, *map);
   return kDone;
 }
@@ -91,7 +95,7 @@ CommandResult<ExitCode> write_map(const MapOptions& options, std::ostream& out) 
         kUsage, {options.out +
                  ": --crs and --geoid are of LAS and GeoTIFF: end it with .las, or add --format geotiff"});
   auto map = open(options);
-  if (!map) return exit_with(kFailed, map.error());
+  if (!map) return tl::unexpected(map.error());
   if (const Status valid = map->recipe.merge.validate(); !valid) return exit_with(kUsage, valid.error());
   if (!las && !rasters) return print_written(export_points(*map, options.store, options.out), out);
   const Status written = rasters ? export_elevation(*map, options, out)
@@ -104,20 +108,20 @@ CommandResult<ExitCode> write_tracks(const MapOptions& options, std::ostream& ou
   if (geoid && !options.out.ends_with(".gpx"))
     return exit_with(kUsage, {"--geoid is of GPX; heights of GeoJSON are above the ellipsoid (RFC 7946)"});
   const auto map = open(options);
-  if (!map) return exit_with(kFailed, map.error());
+  if (!map) return tl::unexpected(map.error());
   return print_written(export_tracks(*map, options.store, options.out, geoid), out);
 }
 
 CommandResult<ExitCode> write_graph(const MapOptions& options, std::ostream& out) {
   const auto map = open(options);
-  return map ? print_written(export_graph(*map, options.out), out) : exit_with(kFailed, map.error());
+  return map ? print_written(export_graph(*map, options.out), out) : tl::unexpected(map.error());
 }
 
 CommandResult<ExitCode> draw_map(const MapOptions& options, std::ostream& out) {
   if (is_named_as_file(options.out))
     return exit_with(kUsage, {options.out + ": there are several pictures; name a folder for them"});
   auto map = open(options);
-  if (!map) return exit_with(kFailed, map.error());
+  if (!map) return tl::unexpected(map.error());
   name_holes(*map);
   name_parts_apart(output::map_parts(map->items.nodes, map->placement), std::cerr);
   const auto files = export_pictures(*map, options.store, options.out);

@@ -34,20 +34,29 @@ namespace {
 constexpr Duration kPerceptionTime = std::chrono::milliseconds(40);
 constexpr Duration kBackgroundTime = std::chrono::milliseconds(300);
 
-Result<config::FleetConfig> fleet_config(const RunOptions& options,
-                                         const std::vector<config::Override>& overrides) {
-  if (!options.config.empty()) return config::load_fleet(options.config, overrides);
-  std::vector<std::pair<AgentId, std::filesystem::path>> recordings;
-  for (const std::string& text : options.recordings) {
+using NamedRecordings = std::vector<std::pair<AgentId, std::filesystem::path>>;
+
+Result<NamedRecordings> recordings_of(const std::vector<std::string>& texts) {
+  NamedRecordings recordings;
+  for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals + 1 == text.size())
+      return failure("--recording " + text + ": expected NAME=PATH, e.g. r1=drive1");
     const auto id = AgentId::parse(text.substr(0, equals));
-    if (equals == std::string::npos || !id) {
-      return failure("--recording " + text + ": expected NAME=PATH, e.g. r1=drive1" +
-                     (id ? "" : "; " + id.error().message));
-    }
+    if (!id) return failure("--recording " + text + ": " + id.error().message);
     recordings.emplace_back(*id, text.substr(equals + 1));
   }
-  return config::fleet_of(recordings, overrides);
+  return recordings;
+}
+
+CommandResult<config::FleetConfig> fleet_config(const RunOptions& options,
+                                                const std::vector<config::Override>& overrides) {
+  const auto recordings = recordings_of(options.recordings);
+  if (!recordings) return exit_with(kUsage, recordings.error());
+  auto config = recordings->empty() ? config::load_fleet(options.config, overrides)
+                                    : config::fleet_of(*recordings, overrides);
+  if (!config) return exit_with(kBadConfiguration, config.error());
+  return std::move(*config);
 }
 
 /// The recordings, or the robots of the twin.
@@ -122,7 +131,7 @@ CommandResult<ExitCode> run_fleet(const RunOptions& options, std::ostream& out) 
   const auto page_config = config_of_page(options.monitor);
   if (!page_config) return exit_with(kUsage, page_config.error());
   auto config = fleet_config(options, *overrides);
-  if (!config) return exit_with(kBadConfiguration, config.error());
+  if (!config) return tl::unexpected(config.error());
   if (options.agents && *options.agents > config->members.size()) {
     return exit_with(kUsage,
                      {"--agents " + std::to_string(*options.agents) + ": " + options.config + " has only " +

@@ -79,8 +79,8 @@ TEST_F(ElevationExport, UnsuitableOptionsAreRefused) {
   EXPECT_EQ(exit_code_, 2);
   EXPECT_THAT(output_, HasSubstr("--tile is of LAS"));
   export_rasters(located, {"--cell", "0"});
-  EXPECT_EQ(exit_code_, 1);
-  EXPECT_THAT(output_, HasSubstr("cell: must be from 0.05"));
+  EXPECT_EQ(exit_code_, 2);
+  EXPECT_THAT(output_, AllOf(HasSubstr("--cell: must be a number from 0.05"), Not(HasSubstr("located.db"))));
   expect_usage_error({"map", "export", located, "--out", path("a.las"), "--cell", "1"}, "--format geotiff");
   expect_usage_error({"map", "export", located, "--out", path("a"), "--format", "png"}, "--format");
 }

@@ -16,5 +16,13 @@ TEST_F(MapMergeCommand, RefusesWhatItCannotTake) {
   expect_usage_error({"map", "merge", path("a.db"), path("./a.db"), "--out", path("m.db")}, "is named twice");
 }
 
+TEST_F(MapMergeCommand, HelpSaysThatTwoStoresOrMoreAreMerged) {
+  run({"map", "merge", "--help"});
+  EXPECT_EQ(exit_code_, 0);
+  EXPECT_NE(output_.find(" stores..."), std::string::npos) << output_;
+  EXPECT_NE(output_.find("at least two"), std::string::npos) << output_;
+  EXPECT_EQ(output_.find("2x"), std::string::npos) << output_;
+}
+
 }  // namespace
 }  // namespace fleetmap

@@ -32,6 +32,19 @@ TEST_F(MapOutput, OptionsThatDoNotFitTogetherExitWith2) {
   expect_usage_error({"map", "export", "s.db", "--out", path("m.tif"), "--format", "geotiff"},
                      "name a folder for them");
   expect_usage_error({"map", "picture", "s.db", "--out", path("m.png")}, "name a folder for them");
+  for (const std::vector<std::string>& action : {std::vector<std::string>{"info"},
+                                                 {"export", "--out", path("m.ply")},
+                                                 {"picture", "--out", path("m")},
+                                                 {"tracks", "--out", path("t.gpx")},
+                                                 {"graph", "--out", path("g.g2o")}}) {
+    std::vector<std::string> arguments{"map"};
+    arguments.insert(arguments.end(), action.begin(), action.end());
+    arguments.insert(arguments.end(), {"s.db", "--origin", "200,300,0"});
+    expect_usage_error(arguments, "--origin is not on Earth");
+    arguments.erase(arguments.end() - 2, arguments.end());
+    arguments.insert(arguments.end(), {"--without", "r1,rX"});
+    expect_usage_error(arguments, "--without: agent id 'rX' must be");
+  }
 }
 
 }  // namespace

@@ -27,11 +27,15 @@ TEST_F(FleetRun, TakesAFileOrRecordingsAndNotBoth) {
 }
 
 TEST_F(FleetRun, ARecordingHasANameAndAPath) {
-  for (const char* text : {"drive1", "=drive1", "too long a name=drive1"}) {
-    run({"run", "--recording", text, "--out", path("out")});
-    EXPECT_EQ(exit_code_, 78) << text;
-    EXPECT_THAT(output_,
-                HasSubstr(std::string("--recording ") + text + ": expected NAME=PATH, e.g. r1=drive1"));
+  const std::string form = "expected NAME=PATH, e.g. r1=drive1";
+  for (const auto& [text, reason] : {std::pair<std::string, std::string>("a long drive", form),
+                                     {"r1=", form},
+                                     {"=drive1", "agent id '' must be 1 to 8 characters"},
+                                     {"a long name=drive1", "agent id 'a long name' must be"}}) {
+    expect_usage_error({"run", "--recording", text, "--out", path("out")},
+                       "--recording " + text + ": " + reason);
+    EXPECT_EQ(output_.find(form) == std::string::npos, reason != form) << output_;
+    EXPECT_EQ(output_.find("agent id") == std::string::npos, reason == form) << output_;
   }
   EXPECT_FALSE(std::filesystem::exists(path("out"))) << "nothing was begun";
 }
