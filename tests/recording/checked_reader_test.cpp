@@ -92,7 +92,7 @@ TEST(CheckedReader, AScanWithoutReturnsIsLeftOut) {
   EXPECT_EQ(checks.counters().origin_points, 14u);
   EXPECT_TRUE(checks.admit_points(scan, "another scan"));
   EXPECT_EQ(checks.counters().foreign_time_unit_scans, 2u);
-  EXPECT_EQ(checks.findings(), std::vector{ros_codec::finding_of(ros_codec::TimeUnit::kMicroseconds)});
+  EXPECT_EQ(checks.findings(), std::vector{ros_codec::finding_of(ros_codec::TimeUnit::kMilliseconds)});
   EXPECT_EQ(checks.counters().foreign_clock_scans, 2u);
 }
 

@@ -32,7 +32,7 @@ export function linksOf(live: Live, later: number): RobotLink[] {
 
 /**
  * Links between any two robots at `t`, s after the first node: over Wi-Fi while that is heard, else over the radio; the
- * worse of both ways. Of a way to a robot without a link trace nothing is known.
+ * worse of both ways. Nothing is known of a way to a robot without a link trace.
  */
 export function linksAt(history: RadioHistory, t: number): RobotLink[] {
   if (history.begin_s === undefined || t < history.begin_s) return [];
