@@ -97,7 +97,8 @@ void ChunkedFile::note_cut(std::uint64_t at, const char* remedy) {
 std::string ChunkedFile::damage() const {
   if (damaged_parts() == 0) return {};
   const char* between = damaged_ == 0 || cut_.empty() ? "" : "; ";
-  return file_.filename().string().append(": ").append(cut_).append(between).append(damaged_ == 0 ? "" : first_damage_);
+  return file_.filename().string().append(": ").append(cut_).append(between).append(
+      damaged_ == 0 ? "" : first_damage_);
 }
 
 }  // namespace fleetmap::recording
