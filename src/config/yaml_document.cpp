@@ -87,7 +87,9 @@ void find_repeated_keys(const YAML::Node& node, const std::string& path, std::se
   std::map<std::string, int> lines;
   for (const auto& entry : node) {
     const std::string& key = entry.first.Scalar();
-    const std::string key_path = path.empty() ? key : path + "." + key;
+    std::string key_path = path;
+    if (!path.empty()) key_path += ".";
+    key_path += key;
     const auto [first, is_new] = lines.emplace(key, entry.first.Mark().line + 1);
     if (!is_new) repeated(key_path, entry.first.Mark(), first->second);
     find_repeated_keys(entry.second, key_path, visited, repeated);
@@ -138,9 +140,9 @@ Result<Document> Document::load(const std::filesystem::path& file) {
   }
 }
 
-Document Document::from(YAML::Node root, std::string name) {
+Document Document::from(const YAML::Node& root, std::string name) {
   Document document;
-  document.root_ = std::move(root);
+  document.root_ = root;
   document.name_ = std::move(name);
   return document;
 }

@@ -19,7 +19,7 @@ class Document {
  public:
   static Result<Document> load(const std::filesystem::path& file);
   /// A document that is not a file; problems are reported under `name`.
-  static Document from(YAML::Node root, std::string name);
+  static Document from(const YAML::Node& root, std::string name);
 
   const YAML::Node& root() const { return root_; }
   const std::string& name() const { return name_; }

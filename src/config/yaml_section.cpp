@@ -61,8 +61,8 @@ std::string without_field(const std::string& message) {
 
 }  // namespace
 
-Section::Section(Document& document, YAML::Node node, std::string path, const YAML::Mark& mark)
-    : document_(&document), node_(std::move(node)), path_(std::move(path)), mark_(mark) {
+Section::Section(Document& document, const YAML::Node& node, std::string path, const YAML::Mark& mark)
+    : document_(&document), node_(node), path_(std::move(path)), mark_(mark) {
   if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap()) {
     document_->problem(path_, node_.Mark(), "expected a map of keys, found '" + text_of(node_) + "'");
     node_ = YAML::Node();

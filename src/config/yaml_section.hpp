@@ -22,7 +22,7 @@ namespace fleetmap::config {
 class Section {
  public:
   /// `mark` is the position of a map that was merged from several.
-  Section(Document& document, YAML::Node node, std::string path,
+  Section(Document& document, const YAML::Node& node, std::string path,
           const YAML::Mark& mark = YAML::Mark::null_mark());
 
   /// The sub-map `key`; absent is like empty.
