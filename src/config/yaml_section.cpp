@@ -215,6 +215,7 @@ void Section::read_lever_arm(const std::string& key, Eigen::Vector3d& value) {
   if (has(key) && value.norm() > kLongestLeverArm)
     problem(key, "expected at most 20 m from base_link, and metres as its unit");
 }
+
 void Section::read_mount(Pose& T_base_sensor) {
   Eigen::Vector3d translation = T_base_sensor.translation();
   read_lever_arm("translation", translation);

@@ -5,6 +5,7 @@
 
 #include "candidates_json.hpp"
 #include "fleetmap/geometry/degree.hpp"
+#include "names_json.hpp"
 #include "rounded_json.hpp"
 
 namespace fleetmap::monitor {
@@ -101,12 +102,10 @@ json radio_json(const RadioNow& radio) {
 }
 
 json maps_json(const FleetMaps& maps) {
-  json not_counted = json::array();
-  for (const AgentId& id : maps.not_counted) not_counted.push_back(id.str());
   return {{"last", maps.last ? json(maps.last->str()) : json()},
           {"missing_submaps", maps.missing_submaps},
           {"seconds_to_equal", optional_json(maps.seconds_to_equal, 1.0)},
-          {"not_counted", std::move(not_counted)}};
+          {"not_counted", names_json(maps.not_counted)}};
 }
 
 }  // namespace

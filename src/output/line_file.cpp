@@ -44,6 +44,11 @@ std::vector<std::filesystem::path> parts_of(const std::filesystem::path& file) {
   return parts;
 }
 
+std::optional<std::string> damage_note(std::size_t damaged, const std::filesystem::path& file) {
+  if (damaged == 0) return std::nullopt;
+  return file.string() + ": " + std::to_string(damaged) + " lines cannot be read";
+}
+
 Result<LineFile> LineFile::open(const std::filesystem::path& path, std::ios::openmode mode, Format format) {
   LineFile file(path, std::move(format));
   std::error_code none;

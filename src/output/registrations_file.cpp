@@ -184,9 +184,4 @@ Registrations read_registrations(const std::filesystem::path& file) {
   return all;
 }
 
-std::optional<std::string> damage_note(const Registrations& read, const std::filesystem::path& file) {
-  if (read.damaged == 0) return std::nullopt;
-  return file.string() + ": " + std::to_string(read.damaged) + " lines cannot be read";
-}
-
 }  // namespace fleetmap::output

@@ -97,7 +97,7 @@ Result<RunFolder> open_run(const fs::path& directory, const fs::path& truths) {
     agent.truth = trajectory_in(truth_file(truths, agent), run.notes);
     const fs::path registrations = agent.directory / output::kRegistrationsFile;
     agent.registrations = output::read_registrations(registrations);
-    if (auto note = output::damage_note(agent.registrations, registrations))
+    if (auto note = output::damage_note(agent.registrations.damaged, registrations))
       run.notes.push_back(std::move(*note));
     if (!truths.empty() && !agent.truth)
       run.notes.push_back(truths.string() + ": holds no usable true trajectory of " + agent.id.str());

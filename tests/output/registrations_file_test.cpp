@@ -71,7 +71,7 @@ TEST(RegistrationsFile, WrittenContentIsReadAgain) {
   ASSERT_TRUE(append_registration(file, {kSource, kTarget, "failed", {}, {}, {}, 0.25, "no cloud"}));
   const Registrations read = read_registrations(file);
   EXPECT_EQ(read.damaged, 0u);
-  EXPECT_FALSE(damage_note(read, file));
+  EXPECT_FALSE(damage_note(read.damaged, file));
   ASSERT_EQ(read.rows.size(), 2u);
   EXPECT_EQ(read.rows[0].target, kTarget);
   EXPECT_EQ(read.rows[0].source, kSource);
@@ -183,7 +183,8 @@ TEST(RegistrationsFile, DamagedLinesAreCountedAndLeftOut) {
                                                  "r1/0,r3/1,accepted,0.0757,0.70,0.98,0.0165,\"cut o");
   EXPECT_EQ(read.rows.size(), 1u);
   EXPECT_EQ(read.damaged, 4u);
-  EXPECT_EQ(damage_note(read, "r1/registrations.csv"), "r1/registrations.csv: 4 lines cannot be read");
+  EXPECT_EQ(damage_note(read.damaged, "r1/registrations.csv"),
+            "r1/registrations.csv: 4 lines cannot be read");
   for (const std::string& empty : {std::string(), std::string("\n"), head}) {
     EXPECT_TRUE(parse_registrations(empty).rows.empty());
     EXPECT_EQ(parse_registrations(empty).damaged, 0u);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <ios>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ inline constexpr std::uintmax_t kMaxTrackBytes = 256'000'000, kMaxTableBytes = 3
 std::filesystem::path part_before(const std::filesystem::path& file);
 /// The parts of a file that are there, the older one first.
 std::vector<std::filesystem::path> parts_of(const std::filesystem::path& file);
+
+/// States the file and how many of its lines are damaged. Empty if none is.
+std::optional<std::string> damage_note(std::size_t damaged, const std::filesystem::path& file);
 
 /// A text file that grows line by line; each line is with the operating system before `add` returns. A line
 /// that does not fit on a full disk is left out whole, and lines go on when there is room. A file that is

@@ -45,7 +45,5 @@ struct Registrations {
 Registrations parse_registrations(std::string_view csv);
 /// With those of part_before(file). A file that is not there holds nothing.
 Registrations read_registrations(const std::filesystem::path& file);
-/// States the file and the number of its damaged lines. Empty if there is none.
-std::optional<std::string> damage_note(const Registrations& read, const std::filesystem::path& file);
 
 }  // namespace fleetmap::output

@@ -128,7 +128,7 @@ void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView&
   }
   view.logs.push_back(by);
   const output::Registrations read = output::read_registrations(file);
-  if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
+  if (auto note = output::damage_note(read.damaged, file)) view.notes.push_back(std::move(*note));
   for (const output::RegistrationRow& row : read.rows) {
     view.attempts.push_back({by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction,
                              row.overlap, row.reason, row.T_target_source, row.done});

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string>
 #include <utility>
 
+#include "fleetmap/output/line_file.hpp"
 #include "fleetmap/output/link_trace.hpp"
 #include "radio_history.hpp"
 
@@ -20,9 +20,7 @@ void add_radio(LoadedRun& run, std::span<const AgentId> without) {
     if (left_out(files.robot)) continue;
     const std::filesystem::path file = files.folder / output::kLinkTraceFile;
     output::LinkTrace trace = output::read_link_trace(file);
-    if (trace.damaged > 0)
-      run.view.notes.push_back(file.string() + ": " + std::to_string(trace.damaged) +
-                               " lines cannot be read");
+    if (auto note = output::damage_note(trace.damaged, file)) run.view.notes.push_back(std::move(*note));
     if (!trace.rows.empty()) traces.push_back(files.robot);
     std::ranges::copy_if(trace.rows, std::back_inserter(rows),
                          [&](const output::LinkTraceRow& row) { return !left_out(row.from); });

@@ -1,18 +1,11 @@
 #include "radio_use.hpp"
 
-#include <string_view>
+#include "robot/radio_rates.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 using nlohmann::json;
-
-/// The kind of message of a topic: "fleetmap/node/r1" -> "node".
-std::string kind_of(const std::string& topic) {
-  constexpr std::string_view kOurs = "fleetmap/";
-  const std::string kind = topic.starts_with(kOurs) ? topic.substr(kOurs.size()) : topic;
-  return kind.substr(0, kind.find('/'));
-}
 
 std::string name_in(const json& row, const char* key) {
   const auto found = row.find(key);
@@ -35,7 +28,7 @@ std::map<std::pair<std::string, std::string>, RadioUse> radio_uses(const json& r
   if (!report.is_object()) return uses;
   for (const json& row : rows_of("links")) {
     if (!row.is_object()) continue;
-    RadioUse& use = uses[{name_in(row, "link"), kind_of(name_in(row, "topic"))}];
+    RadioUse& use = uses[{name_in(row, "link"), kind_of_topic(name_in(row, "topic"))}];
     use.messages += total_in(row, "messages");
     use.bytes += total_in(row, "wire_bytes");
   }

@@ -13,6 +13,7 @@
 #include "page/loaded_run.hpp"
 #include "recordings/unread_parts.hpp"
 #include "report_page.hpp"
+#include "robot/radio_rates.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -60,8 +61,7 @@ json topics_json(const std::vector<bus::TopicStats>& stats) {
   std::map<std::pair<std::string, std::string>, bus::TopicStats> kinds;
   for (const bus::TopicStats& topic : stats) {
     if (topic.link == bus::Link::kOnboard || !topic.topic.starts_with(kOurs)) continue;
-    const std::string kind = topic.topic.substr(kOurs.size());
-    bus::TopicStats& sum = kinds[{bus::to_string(topic.link), kind.substr(0, kind.find('/'))}];
+    bus::TopicStats& sum = kinds[{bus::to_string(topic.link), kind_of_topic(topic.topic)}];
     sum.sent_messages += topic.sent_messages;
     sum.sent_bytes += topic.sent_bytes;
     sum.received_messages += topic.received_messages;

@@ -9,7 +9,7 @@ import {FleetMap, type Layer} from './map';
 import type {ColourMode} from './point_material';
 import {edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, counted, duration, type FleetNode, placeMark, type State} from './model';
+import {colourOf, count, counted, duration, endOf, placeMark, type State} from './model';
 import {cutGaps, gapNote} from './times';
 import {setText} from './patch';
 import {FleetNow} from './fleet_now';
@@ -176,11 +176,10 @@ budget.oninput = setBudget;
 setBudget();
 
 let until: number | undefined; // s, which stays while the mission goes on; undefined: its end
-const endOf = (nodes: FleetNode[]) => nodes.reduce((max, node) => Math.max(max, node.t), 0);
 
 function setTime(): void {
   if (!state) return;
-  const end = endOf(state.nodes),
+  const end = endOf(state),
     t = Math.min(end, until ?? end);
   byId<HTMLInputElement>('time').value = String(end > 0 && until !== undefined ? Math.round((1000 * t) / end) : 1000);
   setText(byId('time-value'), duration(t));
@@ -194,7 +193,7 @@ function setTime(): void {
 }
 byId('time').oninput = () => {
   const share = Number(byId<HTMLInputElement>('time').value) / 1000;
-  until = share >= 1 || !state ? undefined : share * endOf(state.nodes);
+  until = share >= 1 || !state ? undefined : share * endOf(state);
   setTime();
 };
 

@@ -152,6 +152,9 @@ export function comparable(a: {floating?: number} | undefined, b: {floating?: nu
   return a?.floating === b?.floating;
 }
 
+/** Time of the last node, s. */
+export const endOf = ({nodes}: State) => nodes.reduce((last, {t}) => Math.max(last, t), 0);
+
 /** JSON has null for what is infinite or no number. */
 export const isNumber = (value: unknown): value is number => Number.isFinite(value);
 

@@ -4,7 +4,7 @@ import {type Geo, toEnu} from './geodesy';
 import {linksAt, linksOf, type RobotLink} from './links';
 import {distanceToSegment} from './hit';
 import type {FleetMap} from './map';
-import {colourOf, type FleetNode, isNumber, type Live, type RadioHistory, type State} from './model';
+import {colourOf, endOf, type FleetNode, isNumber, type Live, type RadioHistory, type State} from './model';
 import type {Place} from './picking';
 import {matrixOf} from './submap';
 
@@ -51,7 +51,7 @@ export class RobotMarks {
   show(state: State, until: number): void {
     this.until = until;
     this.origin = state.origin;
-    this.end = state.nodes.reduce((last, {t}) => Math.max(last, t), 0);
+    this.end = endOf(state);
     this.history = state.radio ?? undefined;
     const last = new Map<string, FleetNode>();
     for (const node of state.nodes)
